@@ -40,6 +40,7 @@ from burmester.fourbar.dyad import PP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.io.explain import pages
 from burmester.io.message import location_lines, note, show
+from burmester.io.reading.link import LinkedTask, write_link
 from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, synthesis_data
 from burmester.io.saved import read_result
@@ -315,6 +316,14 @@ def in_backticks(help):
 S = "synthesize poses.csv"
 SIX = "--six-bars --chains"
 J = "judge poses.csv"
+LINK = write_link(
+    LinkedTask(
+        {
+            "angle_unit": "deg",
+            "poses": [[0, 0, 0], [5, 1, 10], [9, 4, 30], [11, 9, 50], [12, 12, 60]],
+        }
+    )
+)
 FIRST, SECOND = "--dyad -2.2,0.1:1.24,0.1", "--dyad 1.14,0.39:4.58,1.31"
 SIX_BAR = """\
 ground = {A = [-2.2, 0.1], B = [1.1, 0.4]}
@@ -444,6 +453,7 @@ CASES: dict[str, Case] = {
         Edit("poses.csv", "0.8,0.2", "0.8,0.6"),
         {"poses.csv": "x,y,cos,sin\n0,0,1,0\n3,1,0.8,0.2\n4,3,0.3420,0.9397\n"},
     ),
+    "a link cut off": Case("E117", f"synthesize {LINK[:-9]}", Args(f"synthesize {LINK}")),
     "no column y": Case(
         "E105",
         S,

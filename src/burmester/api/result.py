@@ -183,6 +183,18 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
         """
         return self[linkage].export(path, to=to, force=force, **dimensions)
 
+    def link(self, address: str = "") -> str:
+        """The task as a link, which the studio and every command read in place of a file.
+
+        address: of a studio that others reach; without it the code alone, `t1=...`.
+        Raises E117 where the task is too large for a link.
+        """
+        from burmester.io.reading.link import LinkedTask, write_link
+        from burmester.live.document import document_of
+
+        code = write_link(LinkedTask(document_of(self.task)))
+        return f"{address}#{code}" if address else code
+
     def plot(self, linkage: int | str = 0, ax: Axes | None = None) -> Figure:
         """Draw one linkage at its poses by Matplotlib: the first by rank, or the one named."""
         return self[linkage].plot(ax)

@@ -29,7 +29,8 @@ Decorator: TypeAlias = Callable[[Any], Any]
 
 POSES_HELP = """\b
 POSES   a CSV, .xlsx, JSON, TOML or Parquet file, "-" for standard input, or
-        case:NAME for one of the tasks in the package (see `burmester cases`).
+        case:NAME for one of the tasks in the package (see `burmester cases`),
+        or a link to a task (t1=..., with its address or without).
         A table starts with the line x,y,angle_deg (or angle_rad; x_mm,y_mm
         and the like name a unit; so do X [mm], Winkel [°] and others); the
         columns weight, name and exact may follow.
@@ -378,7 +379,8 @@ def run_synthesis(poses: str, *, six_bars: bool, **given: Any) -> Synthesis:
             f"{OF_SIX_BARS[name]} is for six-bars, and they are not looked for",
             help="give --six-bars as well, or leave it out",
         )
-    options = synthesis_options({"time_limit": given["time_limit"]} if six_bars else given)
+    settings = {"time_limit": given["time_limit"]} if six_bars else given
+    options = synthesis_options(settings, poses)
     with working("reading the poses"):
         task = read_poses(poses, **given)
         if not six_bars:
@@ -420,7 +422,7 @@ def run_judgement(
 
     require_one_source(poses, linkage, dyad, id)
     lengths, limits = lengths_and_limits(given.pop("length"), typed=bool(dyad))
-    options = synthesis_options(given)
+    options = synthesis_options(given, poses)
     with working("reading the poses"):
         task = read_poses(poses, length=limits, **given)
         if linkage is None:
@@ -436,13 +438,23 @@ def run_judgement(
         return judge_linkage(task, one, options, improve=given["improve"])
 
 
-def synthesis_options(given: Mapping[str, Any]) -> SynthesisOptions:
-    """How a task is solved, by the texts of options."""
+def synthesis_options(given: Mapping[str, Any], poses: str) -> SynthesisOptions:
+    """How a task is solved, by the texts of options; a link states those that are not typed."""
+    from burmester.io.reading.link import is_link, read_link
     from burmester.io.reading.option_text import option_value
     from burmester.tasks.options import SynthesisOptions
 
     stated = [each for each in OPTIONS if given.get(each.name) is not None]
-    return SynthesisOptions(**{each.name: option_value(each, given[each.name]) for each in stated})
+    values: dict[str, Any] = {}
+    if is_link(poses) and (of_link := read_link(poses).options):
+        from burmester.live.document import options_of
+
+        linked, source = options_of(of_link), click.get_current_context().get_parameter_source
+        typed = click.core.ParameterSource.COMMANDLINE
+        stated = [each for each in stated if source(each.name) is typed]
+        values = {each.name: getattr(linked, each.name) for each in OPTIONS if each.name in given}
+    values |= {each.name: option_value(each, given[each.name]) for each in stated}
+    return SynthesisOptions(**values)
 
 
 _NOT_FOR_SIX_BARS = (

@@ -47,10 +47,12 @@ def report(
     """
     from burmester.cli.progress_line import working
     from burmester.io import files
+    from burmester.io.reading.link import is_link
     from burmester.printable import printable
     from burmester.report import page
 
-    name = "poses" if poses == "-" else os.path.basename(poses.removeprefix("case:"))
+    plain = poses == "-" or is_link(poses)  # without a name
+    name = "poses" if plain else os.path.basename(poses.removeprefix("case:"))
     path = file or output or f"{os.path.splitext(name)[0]}.html"
     files.require_writable(path, force=force, source=poses)
     synthesis = run_synthesis(poses, **given)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 
 import click
@@ -9,6 +10,7 @@ import click
 from burmester.cli.options import Number
 from burmester.cli.output import EXIT_FOUND
 from burmester.errors import InputError
+from burmester.printable import printable
 
 LIBRARIES = ("starlette", "uvicorn", "websockets")
 MOST_BYTES = 50_000_000  # of standard input
@@ -45,12 +47,24 @@ MOST_BYTES = 50_000_000  # of standard input
     metavar="SECONDS",
     help="Time after which a search is stopped.",
 )
+@click.option(
+    "--links-to",
+    metavar="ADDRESS",
+    help="Address of a studio that others reach; links to tasks lead there.",
+)
 def studio(
-    task: str | None, *, no_browser: bool, port: int, host: str, exposed: bool, time_limit: float
+    task: str | None,
+    *,
+    no_browser: bool,
+    port: int,
+    host: str,
+    exposed: bool,
+    time_limit: float,
+    links_to: str | None,
 ) -> int:
     """Open a page on which linkages follow as poses are dragged.
 
-    TASK is a file as for `burmester synthesize`; by default the page opens on a lid.  The first
+    TASK is a file or a link as for `burmester synthesize`; by default the page opens on a lid.  The first
     line printed is the address of the page, which opens it once, within five minutes; Enter
     prints another one.  Ctrl-C ends the studio.
     """
@@ -73,6 +87,14 @@ def studio(
             "before you do, could read and change the task",
             help="leave --host out, or add --i-know-that-others-can-connect",
         )
+    if links_to is not None and not re.fullmatch(r"https?://[^\s#]+", links_to):
+        raise InputError(
+            "E100",
+            "links to tasks need an address of the web",
+            why=f"{printable(links_to)} is none",
+            help="give one that begins with https:// and has no #",
+        )
     data = sys.stdin.buffer.read(MOST_BYTES) if task == "-" and sys.stdin is not None else b""
-    serve(Opening(task, data, host, port, time_limit, browser=not no_browser), click.echo)
+    opening = Opening(task, data, host, port, time_limit, not no_browser, links_to)
+    serve(opening, click.echo)
     return EXIT_FOUND

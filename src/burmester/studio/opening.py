@@ -6,17 +6,23 @@ from pathlib import PurePath
 from typing import Any
 
 from burmester.io import templates
+from burmester.io.reading.link import is_link, read_link
 from burmester.io.reading.poses import read_task
-from burmester.live.document import document_of, read_file
+from burmester.live.document import document_of, options_of, read_file
 
 
 def opening(head: dict[str, Any], data: bytes) -> dict[str, Any]:
-    """A file of this machine by its "path", or a "template"; data: of standard input ("-").
+    """A file of this machine or a link by its "path", or a "template"; data: of standard input ("-").
 
     Raises what the readers raise.
     """
     if (path := head["path"]) is None:
         return template(head["template"])
+    if is_link(path):
+        link = read_link(path)
+        task = read_task(path, data=link.data)
+        options_of(link.options)  # what cannot be asked is refused here
+        return {**link._asdict(), "document": document_of(task)}
     name = PurePath(path.removeprefix("case:")).stem if path != "-" else "task"
     task = read_task(path, data=data if path == "-" else None)
     return {"document": document_of(task), "options": {}, "name": name}

@@ -47,6 +47,7 @@ class Opening:
 
     path: of a task file; None for a template.  data: its bytes, if it is standard input ("-").
     limit_s: seconds after which a search is stopped.  browser: whether to open one.
+    page: the address of a studio that others reach; links to tasks lead there.
     """
 
     path: str | None = None
@@ -55,6 +56,7 @@ class Opening:
     port: int = 0
     limit_s: float = 10.0
     browser: bool = True
+    page: str | None = None
 
 
 def serve(opening: Opening, say: Callable[[str], None] = print) -> None:
@@ -102,6 +104,7 @@ async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], No
             "version": __version__,
             "templates": [{"name": each, "summary": templates.summary(each)} for each in names],
             "limit_s": limit_s,
+            "page": opening.page,
         }
         port = bound.getsockname()[1]
         is_heard = opening.path != "-" and sys.stdin is not None and sys.stdin.isatty()

@@ -1,12 +1,20 @@
 """Tasks in and out of the page: templates, files, rows pasted, and the command on the task."""
 
+import base64
 import json
 import re
+import zlib
 
 import pytest
 
 from burmester.cli import main
+from burmester.io.reading.link import LinkedTask, read_link, write_link
 from tests.oracles.studio_page import choose, drag, drop, field, has_poses, paste, pose, solved
+
+
+BOMB = (
+    "t1=" + base64.urlsafe_b64encode(zlib.compress(b"[" + b" " * 5_000_000, wbits=-15)).decode()
+).rstrip("=")
 
 
 def rows(page):
@@ -183,3 +191,41 @@ def test_an_empty_task_is_filled_by_hand(page):
     solved(page)
     assert page.locator("[data-banner=refused]").count() == 0
     assert re.fullmatch(r"\d+ linkages?, \d+ usable", page.inner_text(".bs-status"))
+
+
+def test_a_link_carries_the_task_to_python_and_back_and_a_bad_one_changes_nothing(page):
+    drag(page, '.bs-origin[data-pose="8"]', 6, 4)
+    solved(page)
+    moved = pose(page, 8)
+    page.locator("[data-linkage=L2] .bs-card-main").click()
+    choose(page, "task", "data-do=link")
+    page.locator("[data-do=close]").wait_for()
+    _, _, link = page.locator(".bs-dialog pre").all_inner_texts()
+    page.locator("[data-do=close]").click()
+    linked = read_link(link)  # as Python reads what the page wrote
+    assert (linked.name, linked.choice) == ("lid-hinge", "L2")
+    assert [linked.document["poses"][7][key] for key in ("x", "y", "angle")] == [*moved]
+    follow(page, f"#{write_link(linked._replace(name='<b>lid</b>'))}")
+    page.locator("[data-banner=note]", has_text="The task of the link is open.").wait_for()
+    solved(page)
+    assert pose(page, 8) == moved
+    assert page.locator(".bs-task-name").input_value() == "<b>lid</b>"
+    page.locator("[data-linkage=L2].bs-chosen").wait_for()
+    assert "#" not in page.url
+    banner = page.locator("[data-banner=refused]")
+    for bad, sentence in (
+        ("t1=" + link.split("t1=")[1][:-9], "The link is damaged."),
+        ("t1=" + "A" * 20_001, "20000 are the most"),
+        (BOMB, "more than 200 kB"),
+        ("t2=abc", "The link has version 2, and 1 is read."),
+        (write_link(LinkedTask({"poses": [[0, 0, "zero"]]})), "zero"),
+    ):
+        follow(page, f"#{bad}")
+        banner.filter(has_text=sentence).wait_for()
+        assert pose(page, 8) == moved
+    page.wrong.clear()  # the browser tells of the last refusal
+
+
+def follow(page, fragment):
+    """Go to this page with another fragment, as a link that is opened in its tab does."""
+    page.evaluate("fragment => void (location.hash = fragment)", fragment)

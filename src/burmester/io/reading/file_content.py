@@ -9,6 +9,7 @@ from typing import BinaryIO
 
 from burmester.errors import Advice, InputError
 from burmester.io import cases
+from burmester.io.reading.link import is_link, read_link
 from burmester.io.reading.pose_table import HEADER, no_poses, shown
 
 PARQUET, ARCHIVE = b"PAR1", b"PK\x03\x04"  # how their files begin; a workbook is an archive
@@ -47,10 +48,12 @@ _BY_ENDING = {  # what does not begin as it should, or in an older form that beg
 
 
 def read_source(source: str) -> bytes:
-    """The bytes of a file, of standard input ("-") or of a carried case; raises E101."""
+    """The bytes of a file, of standard input ("-"), a link or a carried case; E101, E117."""
     if source == "-" and sys.stdin is None:
         help = "give the name of a file, or send one through a pipe"
         raise InputError("E101", "standard input is closed", help=help)
+    if is_link(source):
+        return read_link(source).data
     if source.startswith("case:"):
         return cases.read_bytes(source.removeprefix("case:"))
     try:

@@ -19,6 +19,7 @@ E105 header, column or key missing  E110 angle unit missing or contradicted
 E111 points that give no pose       E122 no such pose to be exact, or left out
 E113 not in one plane               E115 no such convention
 E114 markers not known or chosen    E116 no cosine and sine of an angle
+E117 a link that cannot be read
 E130 a library is missing           E135 a malformed tolerance of a pose
 E136 tolerances that contradict themselves
 E170 to E176 drawings and surroundings
@@ -92,7 +93,7 @@ def read_task(
     outlines: OutlineOptions = OutlineOptions(),  # noqa: B008  frozen
     data: bytes | None = None,
 ) -> Task:
-    """Read the task in a file, on standard input or in a carried case.
+    """Read the task in a file, in a link, on standard input or in a carried case.
 
     A file that begins as Parquet files and .xlsx workbooks do is read as such; .csv, .tsv and .txt
     are CSV; .json and .toml are JSON and TOML; of a .svg or .dxf drawing the curve is the path to
@@ -101,7 +102,8 @@ def read_task(
     Parameters
     ----------
     source : str or path
-        A file, "-" for standard input, or "case:NAME" for a carried case.
+        A file, a link (`#t1=...`, whole or without its address), "-" for standard input, or
+        "case:NAME" for a carried case.
     angle_unit : "deg" or "rad", optional
         Unit of the angles where the file states none.  It is never guessed.
     specification : Specification, optional

@@ -2,7 +2,16 @@
 
 const AGAIN = [250, 500, 1000, 2000, 4000]; // milliseconds before it is tried again
 const KEY = "burmester.studio.key"; // in storage, which browsers keep apart for every port, unlike cookies
+const TASK = /^#t\d+=/; // in an address: a link to a task, and no token
 const UNFINISHED = new Set(["solving", "progress", "waiting"]); // kinds of messages that more follow
+
+/** Take a link to a task out of the address; "" where there is none. */
+export function linkInAddress() {
+  const { hash, pathname, search } = location;
+  if (!TASK.test(hash)) return "";
+  history.replaceState(null, "", pathname + search); // what is changed since is not undone by a reload
+  return hash;
+}
 
 /** What the server refused: its messages, and the status. */
 export class Refused extends Error {
@@ -58,6 +67,7 @@ export class Connection {
 
   /** Exchange the token in the address for a key, and take it out of the address. */
   async session() {
+    if (TASK.test(location.hash)) return;
     const token = decodeURIComponent(location.hash.slice(1)).replace(/^token=/, "");
     if (!token) return;
     history.replaceState(null, "", location.pathname);

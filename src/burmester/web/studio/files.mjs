@@ -1,6 +1,6 @@
 // Files: opened, dropped, pasted, saved, exported; and the command line that does the same.
 
-import { give, h } from "../widget/dom.mjs";
+import { give, h, put } from "../widget/dom.mjs";
 import { isPath, setBody, withKeys } from "./document.mjs";
 import { Refused } from "./connection.mjs";
 import { button } from "./fields.mjs";
@@ -10,7 +10,13 @@ const TASKS = /\.(toml|json)$/i;
 const KINDS = ".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";
 const BESIDE = ["limits", "requirements", "keep_out", "surroundings", "body"]; // what a task says beside its poses
 const HEADERS = { 2: ["x,y", "Read them as x, y: points"], 3: ["x,y,angle_deg", "Read them as x, y, angle in degrees"] }; // by the number of columns
+const LONGEST_NAME = 200; // characters of a task's name in a link
 const LARGEST = 1_400_000; // bytes of a file: in base64 they are 2 MB with what is around them
+
+/** What is loaded when it is first used.
+ * @returns {Promise<any>} */
+// @ts-ignore: the server has it under this name
+export const tools = () => import("/tools.mjs");
 
 /** A file's bytes in base64. */
 export async function base64Of(file) {
@@ -73,7 +79,7 @@ export class Files {
     this.chooser = h("input", { type: "file", hidden: true, accept: KINDS, "data-file": "open", onchange: () => this.chosen(this.chooser) });
     this.outlines = h("input", { type: "file", hidden: true, accept: ".svg,.dxf", "data-file": "outline", onchange: () => this.chosen(this.outlines) });
     this.dropping = h("div", { class: "bs-dropping", hidden: true, "aria-hidden": "true" }, h("p", {}, "Drop a task, a table of poses, or the outline of the body"));
-    this.dialog = h("dialog", { class: "bs-dialog", "aria-label": "The same from the command line" });
+    this.dialog = h("dialog", { class: "bs-dialog", });
     this.element = h("div", { class: "bs-files" }, this.menu(), this.chooser, this.outlines, this.dropping, this.dialog);
     this.listen();
   }
@@ -85,6 +91,7 @@ export class Files {
       item("New", "an empty task", () => this.fresh(), "new"),
       item("Open…", "a task, or a table of poses (Ctrl+O)", () => this.chooser.click(), "open"),
       item("Save task", "the file that the command reads (Ctrl+S)", () => this.save(), "save"),
+      item("Copy link…", "the whole task in a link or a command, for somebody else", () => this.copyLink(), "link"),
       item("Copy as command", "the same from the command line", () => this.commands(), "command"),
       { heading: "Templates" },
       ...(this.start.templates ?? []).map(({ name, summary }) => ({ title: name, note: summary, act: () => this.template(name), data: { "data-template": name } })),
@@ -101,7 +108,8 @@ export class Files {
     try {
       return await then();
     } catch (error) {
-      if (error instanceof Refused && error.messages.length) this.banners.say("refused", `${what} was not done.`, error.messages, { actions });
+      const { messages } = /** @type {any} */ (error);
+      if (messages?.length) this.banners.say("refused", `${what} was not done.`, messages, { actions });
       else this.banners.say("refused", `${what} was not done: ${error instanceof Refused ? error.message : "the server does not answer"}.`);
       return null;
     }
@@ -212,24 +220,57 @@ export class Files {
   commands() {
     return this.trying("Copying", async () => {
       const { commands } = await (await this.server.post("/command", { ...this.task, settings: this.store.settings, ...this.chosenLinkage })).json();
-      const close = button("Close", () => this.dialog.close(), { "data-do": "close" });
-      const said = h("p", { class: "bs-hint", role: "status" });
-      const copy = async (command) => {
-        try {
-          await navigator.clipboard.writeText(command);
-          said.textContent = "Copied.";
-        } catch {
-          said.textContent = "The browser does not let this page copy: select the text.";
-        }
-      };
-      this.dialog.replaceChildren(
-        h("h2", {}, "The same from the command line"),
-        h("p", { class: "bs-hint" }, "Save the task first; the commands read that file."),
-        ...commands.map(({ title, command }) => h("div", { class: "bs-command" }, h("h3", {}, title), h("pre", { tabindex: 0 }, command), button("Copy", () => copy(command), { "aria-label": `Copy: ${title}` }))),
-        h("div", { class: "bs-row" }, close, said),
-      );
-      this.dialog.showModal();
+      this.showCopies("The same from the command line", "Save the task first; the commands read that file.", commands);
     });
+  }
+
+  /** The task as a link: for others where they reach this page or one like it, else as a command. */
+  copyLink() {
+    return this.trying("Making a link", async () => {
+      const { encode, qrCode } = await tools(), { chosen } = this.store, { page } = this.start;
+      const code = await encode(this.store.document, this.store.options, this.store.name, chosen === "placed" ? null : chosen);
+      const link = `${new URL(page ?? location.pathname, location.href).href}#${code}`;
+      const commands = [{ title: "Open it where burmester is installed", command: `burmester studio ${code}` }, { title: "Find its linkages", command: `burmester synthesize ${code}` }];
+      const hint = `It holds poses, conditions, body, loads, options and the chosen linkage, in ${link.length} characters; no picture behind the plane.`;
+      if (page) return this.showCopies("The task as a link", hint, [{ title: "Link", command: link }, ...commands], qrCode(link));
+      return this.showCopies("The task as a link", hint, [...commands, { title: "Link to this studio, on this machine and while it runs", command: link }]);
+    });
+  }
+
+  /** Open the task in a link; one that cannot be read changes nothing. */
+  openLink(text) {
+    return this.trying("Opening the link", async () => {
+      const { decode } = await tools(), { document: given, options, name, choice } = await decode(text);
+      const { document, notes = [] } = await (await this.server.post("/read", { name: "task.json", text: JSON.stringify(given) })).json();
+      await this.server.post("/check", { document, options });
+      this.store.replace({ document, options, name: name.slice(0, LONGEST_NAME), choice: choice && { chosen: choice } });
+      this.opened?.();
+      this.banners.say("note", "The task of the link is open.", notes, { undo: true });
+    });
+  }
+
+  /** Texts to copy, each with its button.
+   * @param {any} [picture] */
+  showCopies(title, hint, texts, picture) {
+    const close = button("Close", () => this.dialog.close(), { "data-do": "close" });
+    const said = h("p", { class: "bs-hint", role: "status" });
+    const copy = async (command) => {
+      try {
+        await navigator.clipboard.writeText(command);
+        said.textContent = "Copied.";
+      } catch {
+        said.textContent = "The browser does not let this page copy: select the text.";
+      }
+    };
+    put(this.dialog, "aria-label", title);
+    this.dialog.replaceChildren(
+      h("h2", {}, title),
+      h("p", { class: "bs-hint" }, hint),
+      ...texts.map(({ title, command }) => h("div", { class: "bs-command" }, h("h3", {}, title), h("pre", { tabindex: 0 }, command), button("Copy", () => copy(command), { "aria-label": `Copy: ${title}` }))),
+      picture ?? "",
+      h("div", { class: "bs-row" }, close, said),
+    );
+    this.dialog.showModal();
   }
 
   listen() {

@@ -157,13 +157,14 @@ export class Store {
 
   /** Another task in place of this one: one entry, too.
    * @param {any} task */
-  replace({ document, options = {}, name = this.name, settings = this.settings, picture = null }) {
+  replace({ document, options = {}, name = this.name, settings = this.settings, picture = null, choice = null }) {
     this.history.record(this.version, null);
     this.tasks = (this.tasks ?? 0) + 1;
     this.document = document;
     this.options = options;
     this.name = name;
     this.settings = settings;
+    this.wanted = choice && { ...choice, document };
     this.picture = picture?.data ? this.known(picture) : picture;
     this.selection = null;
     this.reference = 0;

@@ -7,11 +7,11 @@ import { Autosave, keptHere } from "./autosave.mjs";
 import { Banners } from "./banners.mjs";
 import { BodyEditor } from "./body_editor.mjs";
 import { currentLinkage } from "./conditions.mjs";
-import { Connection, Refused } from "./connection.mjs";
+import { Connection, linkInAddress, Refused } from "./connection.mjs";
 import { isPath, isPoint } from "./document.mjs";
 import { ExportSettings } from "./export_settings.mjs";
 import { button } from "./fields.mjs";
-import { Files } from "./files.mjs";
+import { Files, tools } from "./files.mjs";
 import { decodeFrame } from "./frames.mjs";
 import { keyList, listenToKeys } from "./keyboard.mjs";
 import { JudgePanel } from "./judge_panel.mjs";
@@ -65,11 +65,6 @@ function layOut(root, store, start) {
   files.opened = refitWhenSolved(store, scene);
   return { scene, banners, files, body, regions, panel, handles, table, curve, path };
 }
-
-/** What is loaded when it is first used.
- * @returns {Promise<any>} */
-// @ts-ignore: the server has it under this name
-const tools = () => import("/tools.mjs");
 
 /** Shows the lengths of the chosen linkage. */
 function dimensionsButton(store, scene, playing, answers) {
@@ -182,9 +177,11 @@ function isNear({ solved, document: { poses } }, [x, y]) {
   return poses.some((pose) => Math.hypot(x - pose.x, y - pose.y) < 3 * (solved?.scene ?? Infinity));
 }
 
-/** A new token in the address: the server was started anew, and its address opened in this tab. */
-function listenToTokens(connection, banners) {
+/** A link to a task, or a new token in the address: the server was started anew, and its address opened in this tab. */
+function listenToAddress(connection, { banners, files }) {
   addEventListener("hashchange", async () => {
+    const link = linkInAddress();
+    if (link) return files.openLink(link);
     if (!location.hash) return;
     await connection.session();
     connection.open();
@@ -208,10 +205,12 @@ async function main() {
   try {
     await connection.session();
     const start = await connection.get("/start"), kept = keptHere();
-    const store = new Store({ connection, document: start.document, options: start.options, name: start.name, ...kept });
+    const choice = start.choice ? { chosen: start.choice } : null, link = linkInAddress();
+    const store = new Store({ connection, document: start.document, options: start.options, name: start.name, choice, ...kept });
     const parts = layOut(root, store, start);
     if (start.saved && !kept) offerSaved(store, parts, start.saved);
-    listenToTokens(connection, parts.banners);
+    listenToAddress(connection, parts);
+    if (link) await parts.files.openLink(link);
     document.documentElement.dataset.ready = "true";
     connection.open();
   } catch (error) {

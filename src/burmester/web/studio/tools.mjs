@@ -2,4 +2,6 @@
 
 export { Backdrop } from "./backdrop.mjs";
 export { Dimensions } from "./dimensions.mjs";
+export { decode, encode } from "./link.mjs";
+export { qrCode } from "./qr_code.mjs";
 export { TransformPanel } from "./transform_panel.mjs";

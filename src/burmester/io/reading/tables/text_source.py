@@ -6,13 +6,14 @@ from pathlib import PurePath
 
 from burmester.errors import InputError
 from burmester.io.reading.file_content import ARCHIVE, PARQUET, decode_text
+from burmester.io.reading.link import LABEL, is_link
 from burmester.io.reading.pose_table import Source
 from burmester.printable import printable
 
 
 def label_of(path: str) -> str:
     """What errors call a file."""
-    return "<stdin>" if path == "-" else printable(path)
+    return "<stdin>" if path == "-" else LABEL if is_link(path) else printable(path)
 
 
 def text_source(data: bytes, path: str, sheet: str | None = None) -> Source:
