@@ -24,7 +24,7 @@ def code(text):
     return base64.urlsafe_b64encode(packed).decode().rstrip("=")
 
 
-TASK = {"angle_unit": "deg", "poses": [[0, 0, 0], [5, 1, 10], [9, 4, 30], [11, 9, 50], [12, 12, 60]]}
+TASK = {"angle_unit": "deg", "poses": [[0, 0, 0], [5, 1, 10], [9, 4, 30], [11, 9, 50], [9, 9, 60]]}
 LINK = f"t1={code(json.dumps([TASK, {'norm': 'worst'}, 'lid', 'L2']))}"
 
 
@@ -41,7 +41,7 @@ def test_every_template_goes_through_a_link_of_less_than_a_thousand_characters()
 def test_a_link_opens_the_studio_with_its_options_name_and_choice():
     told = opening({"path": f"#{LINK}"}, b"")
     assert (told["options"], told["name"], told["choice"]) == ({"norm": "worst"}, "lid", "L2")
-    assert [pose["x"] for pose in told["document"]["poses"]] == [0, 5, 9, 11, 12]
+    assert [pose["x"] for pose in told["document"]["poses"]] == [0, 5, 9, 11, 9]
     with pytest.raises(InputError, match="no option 'colour'"):
         opening({"path": f"t1={code(json.dumps([TASK, {'colour': 1}]))}"}, b"")
 

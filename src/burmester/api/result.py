@@ -189,8 +189,8 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
         address: of a studio that others reach; without it the code alone, `t1=...`.
         Raises E117 where the task is too large for a link.
         """
-        from burmester.io.reading.link import LinkedTask, write_link
-        from burmester.live.document import document_of
+        from burmester.io.reading.link import LinkedTask, write_link  # noqa: PLC0415
+        from burmester.live.document import document_of  # noqa: PLC0415
 
         code = write_link(LinkedTask(document_of(self.task)))
         return f"{address}#{code}" if address else code

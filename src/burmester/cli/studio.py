@@ -64,9 +64,9 @@ def studio(
 ) -> int:
     """Open a page on which linkages follow as poses are dragged.
 
-    TASK is a file or a link as for `burmester synthesize`; by default the page opens on a lid.  The first
-    line printed is the address of the page, which opens it once, within five minutes; Enter
-    prints another one.  Ctrl-C ends the studio.
+    TASK is a file or a link as for `burmester synthesize`; by default the page opens on a lid.
+    The first line printed is the address of the page, which opens it once, within five minutes;
+    Enter prints another one.  Ctrl-C ends the studio.
     """
     from importlib.util import find_spec
 

@@ -12,7 +12,7 @@ from burmester.live.document import document_of, options_of, read_file
 
 
 def opening(head: dict[str, Any], data: bytes) -> dict[str, Any]:
-    """A file of this machine or a link by its "path", or a "template"; data: of standard input ("-").
+    """A file of this machine or a link by its "path", or a "template"; data: of "-" (stdin).
 
     Raises what the readers raise.
     """

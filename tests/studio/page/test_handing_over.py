@@ -11,7 +11,6 @@ from burmester.cli import main
 from burmester.io.reading.link import LinkedTask, read_link, write_link
 from tests.oracles.studio_page import choose, drag, drop, field, has_poses, paste, pose, solved
 
-
 BOMB = (
     "t1=" + base64.urlsafe_b64encode(zlib.compress(b"[" + b" " * 5_000_000, wbits=-15)).decode()
 ).rstrip("=")

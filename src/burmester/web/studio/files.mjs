@@ -249,7 +249,7 @@ export class Files {
     });
   }
 
-  /** Texts to copy, each with its button.
+  /** Texts to copy, each with its button, and a picture of the first one.
    * @param {any} [picture] */
   showCopies(title, hint, texts, picture) {
     const close = button("Close", () => this.dialog.close(), { "data-do": "close" });
@@ -266,8 +266,7 @@ export class Files {
     this.dialog.replaceChildren(
       h("h2", {}, title),
       h("p", { class: "bs-hint" }, hint),
-      ...texts.map(({ title, command }) => h("div", { class: "bs-command" }, h("h3", {}, title), h("pre", { tabindex: 0 }, command), button("Copy", () => copy(command), { "aria-label": `Copy: ${title}` }))),
-      picture ?? "",
+      ...texts.map(({ title, command }, at) => h("div", { class: "bs-command" }, h("h3", {}, title), h("pre", { tabindex: 0 }, command), button("Copy", () => copy(command), { "aria-label": `Copy: ${title}` }), at === 0 ? picture : null)),
       h("div", { class: "bs-row" }, close, said),
     );
     this.dialog.showModal();
