@@ -97,6 +97,16 @@ class Displacement:
         return cls(translation / scale[..., None], angle)
 
     @property
+    def x(self) -> FloatArray:
+        """The first coordinate of the origin of M in F, shape (*)."""
+        return self.translation[..., 0]
+
+    @property
+    def y(self) -> FloatArray:
+        """The second one."""
+        return self.translation[..., 1]
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """The leading axes: () for one displacement."""
         return self.angle.shape

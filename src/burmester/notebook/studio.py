@@ -73,6 +73,8 @@ class Studio(anywidget.AnyWidget):
 
     # Raised by a page at each answer and choice: marimo runs cells again where a value changes.
     turn = traitlets.Int(0).tag(sync=True)
+    # The selected linkage as a drawing, saved with the notebook: shown where no kernel answers.
+    still = traitlets.Unicode("").tag(sync=True)
     task: Any = traitlets.TraitType(None)  # `Any` would let None in without asking the validators
     result: Any = traitlets.TraitType(None)
     selected: Any = traitlets.TraitType(None)
@@ -106,6 +108,7 @@ class Studio(anywidget.AnyWidget):
         with self._known():
             self.result, self.task = first, first.task
             self.selected = first[0].id if len(first) else None
+        self._draw()
         self.on_msg(lambda _, message, __: self._pages.hear(message))
 
     @property
@@ -161,6 +164,7 @@ class Studio(anywidget.AnyWidget):
     def _show_selected(self, change: Any) -> None:
         if not self._knows:
             self._pages.choose(change.new)
+            self._draw()
 
     def _show(self, result: Result) -> None:
         """Another task with its result, set by Python, on every page."""
@@ -182,6 +186,7 @@ class Studio(anywidget.AnyWidget):
             self.result, self.selected = result, selected
             if is_newest:
                 self.task = result.task
+        self._draw()
 
     def follow_hand(self, task: Task) -> None:
         """The task while a hand drags."""
@@ -191,6 +196,7 @@ class Studio(anywidget.AnyWidget):
     def follow_choice(self, id: str) -> None:
         with self._known():
             self.selected = id
+        self._draw()
 
     @property
     def _knows(self) -> bool:
@@ -212,11 +218,13 @@ class Studio(anywidget.AnyWidget):
             "no linkage" if self.linkage is None else f"selected {self.linkage!r}"
         )
 
+    def _draw(self) -> None:
+        shown = self.result if self.linkage is None else self.linkage
+        self.still = shown._repr_html_()
+
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         """The widget, and for who shows no widgets the selected linkage as a drawing."""
         whole = super()._repr_mimebundle_(**kwargs)
         bundle, *metadata = whole if isinstance(whole, tuple) else (whole,)
-        shown = self.result if self.linkage is None else self.linkage
-        still = {"text/plain": repr(self), "text/html": shown._repr_html_()}
-        bundle = {**(bundle or {}), **still}
+        bundle = {**(bundle or {}), "text/plain": repr(self), "text/html": self.still}
         return (bundle, *metadata) if metadata else bundle

@@ -14,7 +14,7 @@ import { Regions } from "../studio/regions.mjs";
 import { Results } from "../studio/results.mjs";
 import { Scene } from "../studio/scene.mjs";
 import { Store } from "../studio/store.mjs";
-import { give, h, put } from "../widget/dom.mjs";
+import { give, h, put, say } from "../widget/dom.mjs";
 import { Kernel } from "./kernel.mjs";
 import ownStyle from "./notebook.css";
 import { dress } from "./theme.mjs";
@@ -22,12 +22,15 @@ import { dress } from "./theme.mjs";
 const MOST_FLYING = 2; // follows on their way: while one is answered the next one comes; more make the machine slower
 const PATIENCE = 700; // milliseconds until solving may be stopped
 const BUSY = "The kernel is busy: what is done here is answered when it is free.";
+const SAVED = "No kernel answers: this is the linkage as it was last. Run the cell to take hold of it.";
 const HINT = "Drag a pose by its point, turn it by the tip of its arrow.";
 const ROOM = "Drag poses by their points, turn them by the tips of their arrows; limits, regions and the body are dragged, too.";
 
 function render({ model, el }) {
+  const line = h("p", { class: "bn-line" }, "Waiting for the kernel…"), still = h("div", { class: "bn-still" });
+  still.append(...new DOMParser().parseFromString(model.get("still") ?? "", "text/html").body.childNodes);
   const ended = new AbortController(), { signal } = ended, kernel = new Kernel(model);
-  const host = h("div", {}), frame = h("div", { class: "bm bs bn" }, h("p", { class: "bn-line" }, "Waiting for the kernel…"));
+  const host = h("div", {}), frame = h("div", { class: "bm bs bn" }, line, still);
   host.attachShadow({ mode: "open" }).append(frame);
   el.replaceChildren(host);
   dress(host.shadowRoot, [sharedStyle, studioStyle, ownStyle], signal);
@@ -44,6 +47,7 @@ function render({ model, el }) {
     model.set("turn", model.get("turn") + 1);
     model.save_changes();
   };
+  kernel.on("busy", (on) => on && say(line, SAVED));
   kernel.send({ do: "open" });
   return () => {
     ended.abort();
