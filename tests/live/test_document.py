@@ -8,10 +8,21 @@ import pytest
 
 from burmester import InputError, read_task
 from burmester.io import cases, templates
+from burmester.io.reading.functions.function_file import read_function
 from burmester.io.result import task_data
-from burmester.live.document import TaskReader, document_of, options_of, task_file, task_of
+from burmester.live.document import (
+    TaskReader,
+    document_of,
+    function_of,
+    options_of,
+    read_document,
+    task_file,
+    task_of,
+)
 
-NAMES = [*(f"{name}.toml" for name in templates.of_places()), *(f"case:{n}" for n in cases.names())]
+FUNCTIONS = [name for name in templates.names() if "\n[function]" in templates.text(name)]
+PLACES = [f"{name}.toml" for name in templates.names() if name not in FUNCTIONS]
+NAMES = [*PLACES, *(f"case:{name}" for name in cases.names())]
 
 
 def given(name):
@@ -40,6 +51,20 @@ def test_a_document_is_the_task(name, tmp_path):
     file = tmp_path / "task.toml"
     file.write_text(task_file(document), encoding="utf-8")
     same(task, read_task(file))
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_document_is_the_function(name):
+    data = templates.text(name).encode()
+    document, _ = read_document(f"{name}.toml", data)
+    task = read_function(data, f"{name}.toml")
+    text = json.loads(json.dumps(document))
+    if x := text["function"].get("x"):
+        text["function"]["x"] = f"{x[0]}:3*{x[1]}/3"
+    for again in (function_of(text), read_function(task_file(document).encode(), "a.toml")):
+        assert again.inputs == pytest.approx(task.inputs, abs=1e-12)
+        assert again.outputs == pytest.approx(task.outputs, abs=1e-12)
+        assert (again.ground, again.minimax) == (task.ground, task.minimax)
 
 
 STATED = """{"length_unit": "mm", "angle_unit": "rad", "note": "not kept",

@@ -49,8 +49,8 @@ def commanded(visitor, gripper, tmp_path_factory):
 def test_the_page_starts_with_a_task_that_moves(visitor, start):
     assert start["name"] == "lid-hinge"
     assert len(start["document"]["poses"]) == 8
-    assert [each["name"] for each in start["templates"]] == list(templates.of_places())
-    assert start["templates"][0]["summary"] == templates.summary(templates.of_places()[0])
+    assert [each["name"] for each in start["templates"]] == list(templates.names())
+    assert start["templates"][0]["summary"] == templates.summary(templates.names()[0])
     assert start["limit_s"] == 10
     known = {each["format"]: each["suffix"] for each in start["exports"]}
     assert known["svg"] == ".svg"

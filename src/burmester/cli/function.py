@@ -175,9 +175,8 @@ def contradiction(message: str, help: str, why: str | None = None) -> InputError
 
 def _task(source: str, given: dict[str, Any]) -> FunctionTask:
     """The task; raises E101 to E109, E190, E191, E192 and E194."""
-    from burmester.io.reading.functions.expression import read_number
     from burmester.io.reading.functions.function_file import read_function
-    from burmester.io.reading.functions.function_options import task_of_function
+    from burmester.io.reading.functions.function_options import read_range, task_of_function
     from burmester.io.reading.pose_table import Source
 
     stated = [name for name in OF_EXPRESSIONS if given[name]]
@@ -197,16 +196,12 @@ def _task(source: str, given: dict[str, Any]) -> FunctionTask:
                 _content(source)  # which says that there is no such file
             option = _option(name)
             raise contradiction(f"{option} is missing", f"give {option}, as in {EXAMPLE}")
-    low, colon, high = given["x"].partition(":")
-    ends = Source("--x", given["x"])
-    if not colon:
-        raise contradiction("--x has no range", "give both ends, such as --x 1:2")
+    x = read_range(Source("--x", given["x"]))
     if given["output_deg"].lower().endswith(TABLES):
         raise contradiction(
             "--output is the range of the output link, in degrees",
             f"give --output 60, say, and name the file by -o {given['output_deg']}",
         )
-    x = read_number(ends, 0, low), read_number(ends, len(low) + 1, high)
     return task_of_function({**_stated(given), "expression": source, "x": x})
 
 
@@ -247,7 +242,7 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
     from dataclasses import replace
 
     from burmester.errors import InputError
-    from burmester.io.reading.option_text import lengths_from_texts
+    from burmester.io.reading.functions.function_options import read_links
     from burmester.io.saved import read_result
     from burmester.synthesis.function_generation import (
         FunctionSynthesis,
@@ -262,14 +257,7 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
                 raise contradiction(
                     f"--links and --{name} are given", f"leave --{name} out, or --links"
                 )
-        every = lengths_from_texts("--links", [links])
-        if len(every) != 4:
-            raise contradiction(
-                f"--links has {len(every)} numbers, and a four-bar has four links",
-                "give the ground link, the input link, the coupler and the output link, such as "
-                "--links 1,0.5,1.2,0.9",
-            )
-        ground, a, r, b = every
+        ground, a, r, b = read_links("--links", links)
         side = {None: None, "left": 1.0, "right": -1.0}[given["side"]]
         return judge_links(replace(task, ground=ground), (a, r, b), side)
     for name, needed in (("side", "--links"), ("id", "--linkage")):

@@ -22,11 +22,6 @@ def of_poses() -> tuple[str, ...]:
     return _without(r"\[function\]|path = ")
 
 
-def of_places() -> tuple[str, ...]:
-    """The names of those whose tasks are places of a body, poses or points: no functions."""
-    return _without(r"\[function\]")
-
-
 def _without(lines: str) -> tuple[str, ...]:
     """The names of templates without a line that begins so."""
     other = re.compile(f"(?m)^(?:{lines})")

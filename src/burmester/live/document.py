@@ -16,14 +16,19 @@ from typing import Any
 
 import numpy as np
 
-from burmester.errors import InputError
+from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon, box
 from burmester.io.pose_data import degrees_of
+from burmester.io.reading.functions.function_file import read_function
+from burmester.io.reading.functions.function_kind import is_function
+from burmester.io.reading.functions.function_options import read_range
 from burmester.io.reading.option_text import option_value
 from burmester.io.reading.outlines.outline_file import FROM_PAGE
+from burmester.io.reading.pose_table import Source
 from burmester.io.reading.poses import read_task
 from burmester.io.result import task_data
 from burmester.live.plain import plain
+from burmester.tasks.function_task import FunctionTask
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import Task
 from burmester.tasks.option_table import STUDIO_OPTIONS
@@ -44,6 +49,41 @@ def task_of(document: object) -> Task:
     except InputError:
         # Once more in short lines: a message shows the line it is about.
         return read_file(NAME, json.dumps(document, indent=1).encode("ascii"))
+
+
+def function_of(document: object) -> FunctionTask:
+    """The function task in a document, whose `x` may be a text such as "0:pi/2".
+
+    Raises what reading a file of a function raises.
+    """
+    stated = document.get("function") if isinstance(document, dict) else None
+    if isinstance(stated, dict) and isinstance(x := stated.get("x"), str):
+        stated = {**stated, "x": list(read_range(Source("x", x)))}
+    return read_function(json.dumps({"function": stated}).encode("ascii"), NAME)
+
+
+def is_of_function(document: object) -> bool:
+    """Whether a document is a function task, whatever is wrong with it."""
+    return isinstance(document, dict) and "function" in document
+
+
+def read_document(name: str, data: bytes, **options: Any) -> tuple[dict[str, Any], list[Advice]]:
+    """The task in a file that a page sent, of poses or a function, and how it was read."""
+    if is_function(data, name):
+        task = read_function(data, name)
+        return function_document(task), list(task.notes)
+    poses = read_file(name, data, **options)
+    return document_of(poses), list(poses.notes)
+
+
+def function_document(task: FunctionTask) -> dict[str, Any]:
+    """A function task as a document."""
+    from burmester.io.function_result import function_task_data  # noqa: PLC0415  loads its search
+
+    stated = function_task_data(task)["function"]
+    if isinstance(pairs := stated["pairs"], list):  # to the digits that a person wrote
+        stated["pairs"] = [[float(f"{each:.12g}") for each in pair] for pair in pairs]
+    return {"function": plain(stated)}
 
 
 class TaskReader:
@@ -212,7 +252,10 @@ def _with_digits(document: dict[str, Any], task: Task) -> dict[str, Any]:
 
 def task_file(document: dict[str, Any]) -> str:
     """A document as a task file in TOML, which `burmester` reads as the same task."""
-    task_of(document)  # what is not read is not written
+    if is_of_function(document):
+        document = function_document(function_of(document))
+    else:
+        task_of(document)  # what is not read is not written
     tree = plain(document)
     lines = [f"{key} = {_toml(value)}" for key, value in tree.items() if key not in _TABLES]
     for key in _TABLES:
@@ -225,7 +268,16 @@ def task_file(document: dict[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
-_TABLES = ("keep_out", "surroundings", "limits", "requirements", "loads", "springs", "drive")
+_TABLES = (
+    "function",
+    "keep_out",
+    "surroundings",
+    "limits",
+    "requirements",
+    "loads",
+    "springs",
+    "drive",
+)
 
 
 def _toml(value: Any) -> str:

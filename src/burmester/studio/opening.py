@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from pathlib import PurePath
-from typing import Any
+from typing import Any, Final
 
 from burmester.io import templates
+from burmester.io.reading.file_content import read_source
+from burmester.io.reading.functions.function_file import read_function
+from burmester.io.reading.functions.function_kind import is_function
 from burmester.io.reading.link import is_link, read_link
 from burmester.io.reading.poses import read_task
-from burmester.live.document import document_of, options_of, read_file
+from burmester.live.document import document_of, function_document, options_of, read_document
+
+EMPTY: Final = {"length_unit": "mm", "angle_unit": "deg", "poses": []}  # beside a function
 
 
 def opening(head: dict[str, Any], data: bytes) -> dict[str, Any]:
@@ -24,11 +29,15 @@ def opening(head: dict[str, Any], data: bytes) -> dict[str, Any]:
         options_of(link.options)  # what cannot be asked is refused here
         return {**link._asdict(), "document": document_of(task)}
     name = PurePath(path.removeprefix("case:")).stem if path != "-" else "task"
+    given = data if path == "-" else read_source(path)
+    if is_function(given, path):
+        document = function_document(read_function(given, path))
+        return {"document": EMPTY, "function": document["function"], "options": {}, "name": name}
     task = read_task(path, data=data if path == "-" else None)
     return {"document": document_of(task), "options": {}, "name": name}
 
 
 def template(name: str) -> dict[str, Any]:
     """A template as a document."""
-    task = read_file(f"{name}.toml", templates.text(name).encode())
-    return {"document": document_of(task), "options": {}, "name": name}
+    document, _ = read_document(f"{name}.toml", templates.text(name).encode())
+    return {"document": document, "options": {}, "name": name}

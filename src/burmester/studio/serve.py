@@ -99,7 +99,7 @@ async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], No
         from burmester.studio.application import application  # noqa: PLC0415
 
         await state.open({"path": opening.path, "template": TEMPLATE}, opening.data)
-        names = templates.of_places()
+        names = templates.names()
         state.start |= {
             "version": __version__,
             "templates": [{"name": each, "summary": templates.summary(each)} for each in names],

@@ -25,7 +25,7 @@ HAND_S = 5.0  # for one follow; whoever takes longer is stuck
 MOST_N = 2**53
 HAND = ("follow", "place", "curve", "cognates")
 SEARCH = ("solve", "cancel")
-LOOK = ("balance", "six_bars", "stop")
+LOOK = ("balance", "six_bars", "function", "stop")
 LOOK_S = 120.0  # for springs and six-bars, which a person waits for and can stop
 # What a page is told; `web/widget/types.d.ts` says the same to the page.
 Kind: TypeAlias = (

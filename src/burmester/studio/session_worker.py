@@ -10,12 +10,15 @@ import base64
 import binascii
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from time import process_time
 from typing import Any, Final, Protocol, TypeAlias
 
 from burmester.cures import for_page
+from burmester.diagnosis.pair_checks import pair_findings
 from burmester.errors import BurmesterError, InputError
 from burmester.io.linkage_file import read_linkage
+from burmester.io.reading.functions.function_options import read_links
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
 from burmester.io.result import json_line, synthesis_data
 from burmester.io.saved import read_result
@@ -24,9 +27,10 @@ from burmester.live.advice import advice_data
 from burmester.live.answers import FRAMES, LiveAnswers
 from burmester.live.document import (
     TaskReader,
-    document_of,
+    function_document,
+    function_of,
     options_of,
-    read_file,
+    read_document,
     task_file,
     task_of,
 )
@@ -40,17 +44,20 @@ from burmester.studio.message import as_json
 from burmester.studio.opening import template
 from burmester.studio.placed import placed
 from burmester.synthesis.balanced import springs_for
+from burmester.synthesis.function_generation import generate_function, judge_links
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.result import Synthesis
 from burmester.synthesis.six_bars import six_bars_of_chains
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.data import report_data
+from burmester.web.function_data import function_report
 from burmester.web.six_bar_data import six_bar_report
 
 Answer: TypeAlias = tuple[dict[str, Any], bytes]
 
 NEVER: Final = "this synthesis cannot be followed"
+BESIDE: Final = ("six_bars", "function")  # kinds that are looked for besides four-bars for poses
 KNOWN: Final = object()  # the key of what the server kept: result and report of the task
 
 
@@ -95,15 +102,15 @@ class SessionWorker:
         """A file that the page sent as a document, and how it was read."""
         data, name = _content(given)
         columns = given.get("columns")
-        task = read_file(
+        document, notes = read_document(
             name,
             data,
             angle_unit=given.get("angle_unit"),
             columns=columns if isinstance(columns, str) else None,
             closed=given.get("closed") is True,
         )
-        notes = [each.to_dict(for_page) for each in task.notes]
-        return _json({"document": document_of(task), "notes": notes})
+        said = [each.to_dict(for_page) for each in notes]
+        return _json({"document": document, "notes": said})
 
     def check(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Nothing, if document and options can be read."""
@@ -157,12 +164,11 @@ class SessionWorker:
 
     @staticmethod
     def _solved(head: dict[str, Any], given: Any) -> Synthesis:
-        task = task_of(given.get("document"))
+        if given.get("kind") in BESIDE:
+            message = "what was found for this task is not kept any more"
+            raise InputError("E151", message, help="look for it once more")
         options = options_of(given.get("options"), head.get("time_limit"))
-        if given.get("kind") == "six_bars":
-            message = "the six-bars of this task are not kept any more"
-            raise InputError("E151", message, help="look for six-bars once more")
-        return synthesize(task, options)
+        return synthesize(task_of(given.get("document")), options)
 
     def improve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """One linkage of the result judged by itself, and the nearest better ones."""
@@ -208,6 +214,22 @@ class SessionWorker:
             found = six_bars_of_chains(task, chains if type(chains) is int else None, options)
         job.send({"kind": "result"}, json_line(synthesis_data(found)).encode())
         return _json(six_bar_report(found))
+
+    def function(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """Linkages for a function of angles, or one that exists; first the result, as above."""
+        task, asked = function_of(given.get("document")), given.get("options") or {}
+        with shown(job.listen):
+            if isinstance(links := asked.get("links"), str):
+                ground, *others = read_links("links", links)
+                side = {"left": 1.0, "right": -1.0}.get(str(asked.get("side")))
+                a, r, b = others
+                found = judge_links(replace(task, ground=ground), (a, r, b), side)
+            else:
+                found = generate_function(task)
+        job.send({"kind": "result"}, json_line(synthesis_data(found)).encode())
+        report = function_report(found)
+        report["warnings"] += [each.to_dict(for_page) for each in pair_findings(task)]
+        return _json({**report, "task": function_document(found.task)})
 
     def solve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The whole search: the result as a file holds it first, then what the page draws."""

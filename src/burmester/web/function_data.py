@@ -44,7 +44,7 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
         "outcome": synthesis.outcome.to_dict(),
         "best": words.best_sentences(synthesis) + asked,
         "warnings": [each.to_dict() for each in synthesis.warnings],
-        "kind": "function report",
+        "overline": "function report",
         "whole": True,
         "stop": "place",
         "transmission_limit": transmission_limit(task.requirements),

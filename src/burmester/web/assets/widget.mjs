@@ -1563,7 +1563,7 @@ function header(data, good) {
   return h(
     "header",
     { class: "bm-head" },
-    h("p", { class: "bm-overline" }, `burmester · ${data.kind ?? "linkage report"}`),
+    h("p", { class: "bm-overline" }, `burmester · ${data.overline ?? "linkage report"}`),
     data.title ? h("h1", {}, data.title) : null,
     h(
       "p",
@@ -2352,7 +2352,8 @@ var Plots = class {
     if (least < 0 && most > 0) svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(0))}H${this.width - RIGHT}` }));
     if (stems) for (const [a, b] of shown) svg.append(s("path", { class: "bm-stem", d: `M${at([a, 0])}L${at([a, b])}` }));
     else svg.append(s("path", { class: "bm-line", d: `M${shown.map(at).join("L")}` }));
-    for (const [a, b] of dots) svg.append(s("circle", { class: "bm-dot", cx: px(this.X(a)), cy: px(Y(b)), r: 3.5 }, s("title", {}, `${figure(b)}°`)));
+    const ofPixel = (most - least + 2 * room) / PANEL;
+    dots.forEach(([a, b], i) => svg.append(s("circle", { class: "bm-dot", cx: px(this.X(a)), cy: px(Y(b)), r: 3.5, "data-dot": i, "data-panel": k, "data-of-pixel": ofPixel }, s("title", {}, `${figure(b)}°`))));
     this.mark((drive) => valueAt(curve, drive), Y);
   }
   /** Values along the way as a line over the drive. */
@@ -3611,7 +3612,7 @@ var Report = class {
     listenToKeys(this.root, this.plane.svg, player, signal);
     window.addEventListener("beforeprint", () => player.play(false), { signal });
     player.play(false);
-    if (!window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
+    if (!this.options.still && !window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
   }
   close() {
     this.ended.abort();

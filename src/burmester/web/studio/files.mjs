@@ -69,6 +69,7 @@ export function menu(text, items, attributes = {}) {
 
 export class Files {
   /** @type {any} */ opened;
+  /** @type {any} */ functions;
 
   /** start: what the server said of templates and exports; banners: where is told what happened. */
   constructor(store, start, banners) {
@@ -90,6 +91,7 @@ export class Files {
     return menu("Task", () => [
       item("New", "an empty task", () => this.fresh(), "new"),
       item("Open…", "a task, or a table of poses (Ctrl+O)", () => this.chooser.click(), "open"),
+      item("Function of an angle…", "an output link that turns as a function of an input link", () => this.function(), "function"),
       item("Save task", "the file that the command reads (Ctrl+S)", () => this.save(), "save"),
       item("Copy link…", "the whole task in a link or a command, for somebody else", () => this.copyLink(), "link"),
       item("Copy as command", "the same from the command line", () => this.commands(), "command"),
@@ -122,9 +124,18 @@ export class Files {
   template(name) {
     return this.trying(`Opening ${name}`, async () => {
       const made = await this.server.get(`/template/${encodeURIComponent(name)}`);
+      if (made.document.function) return this.function(made.document.function, name);
       this.store.replace({ name, ...made });
       this.opened?.();
     });
+  }
+
+  /** The page of functions of angles; task: what is opened there, else what was there last. */
+  async function(task = null, name = undefined) {
+    // @ts-ignore: the server has it under this name
+    const { FunctionPage } = await import("/tools.mjs");
+    this.functions ??= new FunctionPage(this);
+    this.functions.open(task, name);
   }
 
   async chosen(input) {
@@ -150,6 +161,7 @@ export class Files {
       if (asOutline) return this.outline(await (await this.server.post("/outline", body)).json(), file.name, other);
       const { document, options = {}, notes = [] } = await (await this.server.post("/read", body)).json();
       const name = file.name.replace(/\.[^.]*$/, "");
+      if (document.function) return this.function(document.function, name);
       const whole = TASKS.test(file.name);
       this.store.replace(whole ? { document, options, name } : { document, options: this.store.options, name });
       this.opened?.();
@@ -170,6 +182,7 @@ export class Files {
     return this.trying("Pasting", async () => {
       const old = this.store.document;
       const { document, notes = [] } = await (await this.server.post("/read", { name: "pasted", text, columns, length_unit: old.length_unit, angle_unit: "deg" })).json();
+      if (document.function) return this.function(document.function);
       const beside = Object.fromEntries(BESIDE.filter((key) => old[key] !== undefined && document[key] === undefined).map((key) => [key, old[key]]));
       this.store.replace({ document: withKeys(document, { length_unit: document.length_unit ?? old.length_unit }), options: this.store.options, picture: this.store.picture });
       this.store.select(null);

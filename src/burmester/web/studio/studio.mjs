@@ -213,6 +213,7 @@ async function main() {
     if (link) await parts.files.openLink(link);
     document.documentElement.dataset.ready = "true";
     connection.open();
+    if (start.function) parts.files.function(start.function, start.name);
   } catch (error) {
     addEventListener("hashchange", () => location.reload()); // another address, opened in this tab
     const [told] = error instanceof Refused && error.status === 401 ? error.messages : [];

@@ -2,6 +2,7 @@
 
 export { Backdrop } from "./backdrop.mjs";
 export { Dimensions } from "./dimensions.mjs";
+export { FunctionPage } from "./function_page.mjs";
 export { decode, encode } from "./link.mjs";
 export { qrCode } from "./qr_code.mjs";
 export { TransformPanel } from "./transform_panel.mjs";

@@ -18,7 +18,7 @@ export function header(data, good) {
   return h(
     "header",
     { class: "bm-head" },
-    h("p", { class: "bm-overline" }, `burmester · ${data.kind ?? "linkage report"}`),
+    h("p", { class: "bm-overline" }, `burmester · ${data.overline ?? "linkage report"}`),
     data.title ? h("h1", {}, data.title) : null,
     h(
       "p",

@@ -198,7 +198,8 @@ export class Plots {
     if (least < 0 && most > 0) svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(0))}H${this.width - RIGHT}` }));
     if (stems) for (const [a, b] of shown) svg.append(s("path", { class: "bm-stem", d: `M${at([a, 0])}L${at([a, b])}` }));
     else svg.append(s("path", { class: "bm-line", d: `M${shown.map(at).join("L")}` }));
-    for (const [a, b] of dots) svg.append(s("circle", { class: "bm-dot", cx: px(this.X(a)), cy: px(Y(b)), r: 3.5 }, s("title", {}, `${figure(b)}°`)));
+    const ofPixel = (most - least + 2 * room) / PANEL; // for who drags a dot
+    dots.forEach(([a, b], i) => svg.append(s("circle", { class: "bm-dot", cx: px(this.X(a)), cy: px(Y(b)), r: 3.5, "data-dot": i, "data-panel": k, "data-of-pixel": ofPixel }, s("title", {}, `${figure(b)}°`))));
     this.mark((drive) => valueAt(curve, drive), Y);
   }
 

@@ -301,7 +301,7 @@ export class Report {
     listenToKeys(this.root, this.plane.svg, player, signal);
     window.addEventListener("beforeprint", () => player.play(false), { signal });
     player.play(false);
-    if (!window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
+    if (!this.options.still && !window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
   }
 
   close() {

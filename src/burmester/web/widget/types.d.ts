@@ -65,7 +65,7 @@ export interface View {
 
 /** What a page asks over its websocket; `burmester.studio.session` has the same, and a test compares them. */
 export interface Asked {
-  do: "follow" | "place" | "curve" | "cognates" | "solve" | "cancel" | "balance" | "six_bars" | "stop";
+  do: "follow" | "place" | "curve" | "cognates" | "solve" | "cancel" | "balance" | "six_bars" | "function" | "stop";
   [more: string]: any;
 }
 

@@ -14,7 +14,8 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.fourbar.linkage import TYPE_OF_SIGNS
-from burmester.io.reading.functions.expression import read_expression
+from burmester.io.reading.functions.expression import read_expression, read_number
+from burmester.io.reading.option_text import lengths_from_texts
 from burmester.io.reading.pose_table import Source, shown
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.links import LINK_RATIO
@@ -41,6 +42,32 @@ LEAST_STEP: Final = 1e-9  # radians; inputs that differ less are one
 
 Stated: TypeAlias = Mapping[str, Any]  # what is stated of a function task, by the keys of a file
 NOTHING: Final[Stated] = MappingProxyType({})
+
+
+def read_range(source: Source) -> tuple[float, float]:
+    """The ends of a range FROM:TO, each a number that may be an expression; raises E190, E194."""
+    low, colon, high = source.text.partition(":")
+    if not colon:
+        raise InputError(
+            "E194",
+            f"{source.label} has no range",
+            help=f"give both ends, such as {source.label} 1:2",
+        )
+    return read_number(source, 0, low), read_number(source, len(low) + 1, high)
+
+
+def read_links(option: str, text: str) -> tuple[float, float, float, float]:
+    """The lengths of ground, input link, coupler and output link; raises E134, E194."""
+    every = lengths_from_texts(option, [text])
+    if len(every) != 4:
+        raise InputError(
+            "E194",
+            f"{option} has {len(every)} numbers, and a four-bar has four links",
+            help="give the ground link, the input link, the coupler and the output link, such as "
+            f"{option} 1,0.5,1.2,0.9",
+        )
+    ground, a, r, b = every
+    return ground, a, r, b
 
 
 def task_of_function(stated: Stated, source: Source | None = None) -> FunctionTask:
