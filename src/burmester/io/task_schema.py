@@ -32,6 +32,7 @@ def task_schema() -> Schema:
         "requirements": REQUIREMENTS_SCHEMA,
         **LOAD_SCHEMAS,
         "function": FUNCTION_SCHEMA,
+        "picture": {"description": "What lies behind the plane in the studio, which writes it."},
     }
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",

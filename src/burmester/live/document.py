@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import tomllib
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any
@@ -250,13 +251,26 @@ def _with_digits(document: dict[str, Any], task: Task) -> dict[str, Any]:
     return {**document, "pose_sigma": {"position": position, "angle_deg": math.degrees(angle)}}
 
 
-def task_file(document: dict[str, Any]) -> str:
-    """A document as a task file in TOML, which `burmester` reads as the same task."""
+def picture_in(name: str, data: bytes) -> Any:
+    """The picture behind the plane that a task file keeps, whatever it is; None where none is.
+
+    Raises ValueError where it is no such file.
+    """
+    text = data.decode("utf-8-sig")
+    tree = tomllib.loads(text) if name.lower().endswith(".toml") else json.loads(text)
+    return tree.get("picture") if isinstance(tree, dict) else None
+
+
+def task_file(document: dict[str, Any], picture: object = None) -> str:
+    """A document as a task file in TOML, which `burmester` reads as the same task.
+
+    picture: what lies behind the plane, with its place; only pages read it.
+    """
     if is_of_function(document):
         document = function_document(function_of(document))
     else:
         task_of(document)  # what is not read is not written
-    tree = plain(document)
+    tree = plain(document | ({"picture": picture} if isinstance(picture, dict) else {}))
     lines = [f"{key} = {_toml(value)}" for key, value in tree.items() if key not in _TABLES]
     for key in _TABLES:
         if key not in tree:
@@ -269,14 +283,8 @@ def task_file(document: dict[str, Any]) -> str:
 
 
 _TABLES = (
-    "function",
-    "keep_out",
-    "surroundings",
-    "limits",
-    "requirements",
-    "loads",
-    "springs",
-    "drive",
+    *("function", "keep_out", "surroundings", "limits", "requirements", "loads", "springs"),
+    *("drive", "picture"),
 )
 
 

@@ -24,7 +24,7 @@ from burmester.studio.server_state import ServerState
 from burmester.studio.session import Session
 from burmester.studio.workers import WorkerEndedError
 
-OF_TASK = ("read", "outline", "check", "task", "springs", "linkage")
+OF_TASK = ("read", "outline", "drawing", "check", "task", "springs", "linkage")
 OF_RESULT = ("export", "result", "report", "improve")
 _STATIC = {
     "/": ("studio.html", "text/html; charset=utf-8"),

@@ -10,8 +10,15 @@ from burmester.io.reading.file_content import read_source
 from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.functions.function_kind import is_function
 from burmester.io.reading.link import is_link, read_link
+from burmester.io.reading.outlines.outline_file import drawing_named
 from burmester.io.reading.poses import read_task
-from burmester.live.document import document_of, function_document, options_of, read_document
+from burmester.live.document import (
+    document_of,
+    function_document,
+    options_of,
+    picture_in,
+    read_document,
+)
 
 EMPTY: Final = {"length_unit": "mm", "angle_unit": "deg", "poses": []}  # beside a function
 
@@ -29,12 +36,17 @@ def opening(head: dict[str, Any], data: bytes) -> dict[str, Any]:
         options_of(link.options)  # what cannot be asked is refused here
         return {**link._asdict(), "document": document_of(task)}
     name = PurePath(path.removeprefix("case:")).stem if path != "-" else "task"
-    given = data if path == "-" else read_source(path)
-    if is_function(given, path):
+    is_drawing = drawing_named(path) is not None  # maybe a part of it: its reader opens it
+    if path != "-" and not is_drawing:
+        data = read_source(path)
+    if not is_drawing and is_function(data, path):
         document = function_document(read_function(given, path))
         return {"document": EMPTY, "function": document["function"], "options": {}, "name": name}
-    task = read_task(path, data=data if path == "-" else None)
-    return {"document": document_of(task), "options": {}, "name": name}
+    task = read_task(path, data=None if is_drawing else data)
+    opened = {"document": document_of(task), "options": {}, "name": name}
+    if path.lower().endswith((".toml", ".json")) and not path.startswith("case:"):
+        opened["picture"] = picture_in(path, data)
+    return opened
 
 
 def template(name: str) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from burmester.diagnosis.pair_checks import pair_findings
 from burmester.errors import BurmesterError, InputError
 from burmester.io.linkage_file import read_linkage
 from burmester.io.reading.functions.function_options import read_links
-from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
+from burmester.io.reading.outlines.outline_file import OutlineFile, read_curves, read_outline
 from burmester.io.result import json_line, synthesis_data
 from burmester.io.saved import read_result
 from burmester.io.spring_list import usual_springs
@@ -30,6 +30,7 @@ from burmester.live.document import (
     function_document,
     function_of,
     options_of,
+    picture_in,
     read_document,
     task_file,
     task_of,
@@ -110,7 +111,10 @@ class SessionWorker:
             closed=given.get("closed") is True,
         )
         said = [each.to_dict(for_page) for each in notes]
-        return _json({"document": document, "notes": said})
+        picture = None
+        if name.lower().endswith((".toml", ".json")):
+            picture = picture_in(name, data)
+        return _json({"document": document, "notes": said, "picture": picture})
 
     def check(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Nothing, if document and options can be read."""
@@ -126,11 +130,19 @@ class SessionWorker:
         outline, note = read_outline(file, "", unit if isinstance(unit, str) else None, data)
         return _json({"outline": plain(outline.vertices.tolist()), "notes": [note.to_dict()]})
 
+    def drawing(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The curves of a drawing that the page sent, to lie behind the plane."""
+        data, name = _content(given)
+        unit = given.get("length_unit")
+        curves = read_curves(OutlineFile(name), unit if isinstance(unit, str) else None, data)
+        return _json({"curves": [plain(each.tolist()) for each in curves]})
+
     def task(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The task as a file."""
         options_of(given.get("options"))
         name = f"{plain_name(given.get('name'))}.toml"
-        return {"kind": "file", "name": name}, task_file(given.get("document")).encode()
+        text = task_file(given.get("document"), given.get("picture"))
+        return {"kind": "file", "name": name}, text.encode()
 
     def export(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """A linkage of the result in another format."""

@@ -206,6 +206,6 @@ LIMIT_OPTIONS: Final = (
 # The tables at the top of a task in a file, and all keys there.
 TABLES: Final = (
     "pose_sigma", "tolerance", "body", "keep_out", "surroundings", "limits", "requirements", "path",
-    "crank", "loads", "springs", "drive",
+    "crank", "loads", "springs", "drive", "picture",
 )  # fmt: skip
 TOP_KEYS: Final = ("poses", "angle_unit", "length_unit", *TABLES)

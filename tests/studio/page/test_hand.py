@@ -5,8 +5,11 @@ import math
 
 import pytest
 
+from burmester.studio.opening import opening
 from tests.oracles.browser import at_rest
+from tests.oracles.drawings import dxf
 from tests.oracles.studio_page import (
+    choose,
     drag,
     drawn,
     kept,
@@ -138,3 +141,41 @@ def test_poses_are_clicked_on_a_picture_to_scale_and_undo_survives_a_reload(page
     assert page.locator(".bs-pose-row").count() == 10
     page.locator("[data-do=redo]").click()
     assert page.locator(".bs-pose-row").count() == 11
+
+
+def test_a_dxf_lies_to_scale_and_the_saved_task_brings_it_back(page, tmp_path):
+    plan = dxf(
+        lambda _, space: space.add_lwpolyline([(10, 0), (12, 0), (12, 1), (10, 1)], close=True), 6
+    )
+    page.locator("[data-section=picture]").evaluate("node => (node.open = true)")
+    page.locator("[data-file=picture]").set_input_files(
+        {"name": "plan.dxf", "mimeType": "image/vnd.dxf", "buffer": plan}
+    )
+    image = page.locator("img.bs-backdrop")
+    image.wait_for()
+    before, scene = at_rest(image), page.locator(".bs-scene").bounding_box()
+    scale, left, top = (view(page)[each] for each in ("scale", "left", "top"))
+    corner = scene["x"] + left + 10_000 * scale, scene["y"] + top - 1000 * scale  # metres in mm
+    edge = 20 * scale  # a hundredth of the drawing is around it
+    assert (before["x"] + edge, before["y"] + edge) == pytest.approx(corner, abs=1)
+    assert before["width"] - 2 * edge == pytest.approx(2000 * scale, abs=1)
+    with page.expect_download() as saved:
+        page.keyboard.press("Control+s")
+    file = tmp_path / "lid.toml"
+    saved.value.save_as(file)
+    opened = opening({"path": str(file)}, b"")
+    assert opened["picture"]["file"] == "plan.dxf"
+    assert len(opened["document"]["poses"]) == 8
+    choose(page, "task", "data-do=new")
+    image.wait_for(state="hidden")
+    page.locator("[data-file=open]").set_input_files(file)
+    image.wait_for()
+    solved(page)
+    place = page.evaluate("JSON.parse(sessionStorage.getItem('burmester.studio')).picture.place")
+    assert place == pytest.approx(opened["picture"]["place"])
+    assert (place["x"], place["y"]) == pytest.approx((9980, -20), abs=1e-6)
+    odd = file.read_text(encoding="utf-8").replace("data:image/jpeg", "data:text/html")
+    page.locator("[data-file=open]").set_input_files(
+        {"name": "odd.toml", "mimeType": "text/plain", "buffer": odd.encode()}
+    )
+    image.wait_for(state="hidden")  # it is none that a page made

@@ -1,12 +1,13 @@
 // A picture behind the plane, set to scale by two points and a length; or the frames of a film, on which poses are clicked.
 //
 // A picture is kept with the task, as a JPEG of bounded size whatever it was: an SVG is only ever shown by <img>, where no
-// script of it runs.  A film stays a file of this machine, and is not kept.  Both lie in the plane by a similarity that
+// script of it runs.  The curves of a DXF are drawn where they are, in the unit of the task.  A film stays a file of this machine, and is not kept.  Both lie in the plane by a similarity that
 // takes their pixels, counted to the right and up from their lower left corner, to F.
 
 import { give, h, put, s } from "../widget/dom.mjs";
 import { degrees, px } from "../widget/numbers.mjs";
 import { addPose } from "./document.mjs";
+import { base64Of } from "./files.mjs";
 import { NumberField, button, labelled } from "./fields.mjs";
 import { about, composed, moved } from "./task_transform.mjs";
 
@@ -25,23 +26,44 @@ function loaded(element, event, address) {
   });
 }
 
-/** A picture of any kind as a JPEG in a data URL, not greater than is kept. */
-async function asJpeg(file) {
+/** What `paint(pen, canvas, scale)` draws of something so wide and high, as a JPEG in a data URL, not greater than is kept.
+ * @param {(pen: CanvasRenderingContext2D, canvas: HTMLCanvasElement, scale: number) => void} paint */
+function asJpeg(wide, high, largest, paint) {
+  const canvas = document.createElement("canvas"), longest = Math.max(wide, high);
+  for (let size = largest; ; size *= 0.7) {
+    Object.assign(canvas, { width: Math.max(1, Math.round((wide * size) / longest)), height: Math.max(1, Math.round((high * size) / longest)) });
+    const { width, height } = canvas, pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    pen.fillStyle = "white";
+    pen.fillRect(0, 0, width, height);
+    paint(pen, canvas, size / longest);
+    const data = canvas.toDataURL("image/jpeg", 0.85);
+    if (data.length <= MOST) return { data, width, height };
+  }
+}
+
+/** A picture that the browser shows. */
+async function ofImage(file) {
   const address = URL.createObjectURL(file);
   try {
-    const image = await loaded(new Image(), "load", address), canvas = document.createElement("canvas"), longest = Math.max(image.naturalWidth, image.naturalHeight) || LONGEST_SIDE;
-    for (let size = file.type === "image/svg+xml" ? LONGEST_SIDE : Math.min(LONGEST_SIDE, longest); ; size *= 0.7) {
-      Object.assign(canvas, { width: Math.max(1, Math.round(((image.naturalWidth || longest) * size) / longest)), height: Math.max(1, Math.round(((image.naturalHeight || longest) * size) / longest)) });
-      const { width, height } = canvas, pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-      pen.fillStyle = "white";
-      pen.fillRect(0, 0, width, height);
-      pen.drawImage(image, 0, 0, width, height);
-      const data = canvas.toDataURL("image/jpeg", 0.85);
-      if (data.length <= MOST) return { data, width, height };
-    }
+    const image = await loaded(new Image(), "load", address), longest = Math.max(image.naturalWidth, image.naturalHeight) || LONGEST_SIDE;
+    const largest = file.type === "image/svg+xml" ? LONGEST_SIDE : Math.min(LONGEST_SIDE, longest);
+    return asJpeg(image.naturalWidth || longest, image.naturalHeight || longest, largest, (pen, { width, height }) => pen.drawImage(image, 0, 0, width, height));
   } finally {
     URL.revokeObjectURL(address);
   }
+}
+
+/** The curves of a drawing, and their place. */
+function ofCurves(curves) {
+  const [left, bottom, right, top] = curves.flat().reduce(([l, b, r, t], [x, y]) => [Math.min(l, x), Math.min(b, y), Math.max(r, x), Math.max(t, y)], [Infinity, Infinity, -Infinity, -Infinity]);
+  const edge = 0.01 * Math.max(right - left, top - bottom), wide = right - left + 2 * edge, high = top - bottom + 2 * edge;
+  if (!(edge > 0)) throw new Error("it has no lines");
+  const made = asJpeg(wide, high, LONGEST_SIDE, (pen, { height }, scale) => {
+    pen.lineWidth = 2;
+    for (const curve of curves) for (const [k, [x, y]] of curve.entries()) pen[k ? "lineTo" : "moveTo"]((x - left + edge) * scale, height - (y - bottom + edge) * scale);
+    pen.stroke();
+  });
+  return { ...made, place: { turn: 0, scale: Math.max(wide, high) / Math.max(made.width, made.height), mirror: false, x: left - edge, y: bottom - edge } };
 }
 
 /** The address of what a data URL holds. */
@@ -59,7 +81,7 @@ export class Backdrop {
     this.banners = banners;
     this.image = h("img", { class: "bs-backdrop", alt: "", draggable: "false", hidden: true });
     scene.element.prepend(this.image);
-    const chooser = h("input", { type: "file", hidden: true, accept: "image/png,image/jpeg,image/svg+xml,video/*", "data-file": "picture", onchange: () => this.take(chooser.files[0]).finally(() => (chooser.value = "")) });
+    const chooser = h("input", { type: "file", hidden: true, accept: "image/png,image/jpeg,image/svg+xml,video/*,.dxf", "data-file": "picture", onchange: () => this.take(chooser.files[0]).finally(() => (chooser.value = "")) });
     const tool = (text, data, make) => {
       const made = button(text, () => scene.use(scene.tool?.name === data ? null : make()), { "data-do": data, "aria-pressed": "false" });
       scene.on("tool", () => put(made, "aria-pressed", scene.tool?.name === data));
@@ -83,7 +105,7 @@ export class Backdrop {
       h("div", { class: "bs-row" }, tool("Set its scale", "picture-scale", () => new ScaleTool(this)), tool("Move it", "picture-move", () => new MoveTool(this)), button("Take it away", () => this.remove(), { "data-do": "picture-remove" })),
       h("div", { class: "bs-row" }, labelled("turned by °", this.turned.element), labelled("strength", this.faded)), this.ofFilm);
     this.element = h("div", {},
-      h("p", { class: "bs-hint" }, "A photo or a drawing behind the plane, on which poses are clicked. A film's frames as poses: two points of the body in each. Films stay on this machine and are not kept."),
+      h("p", { class: "bs-hint" }, "A photo or a drawing behind the plane, on which poses are clicked; a DXF keeps its scale. It is saved with the task. A film's frames as poses: two points of the body in each. Films stay on this machine and are not kept."),
       button("A picture or a film…", () => chooser.click(), { "data-do": "picture" }), chooser, this.ofPicture);
     store.on("picture", () => this.load());
     scene.on("view", () => this.draw());
@@ -105,13 +127,22 @@ export class Backdrop {
   async take(file) {
     try {
       if (file.type.startsWith("video/")) return await this.open(file);
-      const { data, width, height } = await asJpeg(file), id = crypto.randomUUID();
+      if (file.type === "application/pdf") throw new Error("save its page as PNG, SVG or DXF, and open that");
+      const { data, width, height, place } = await (/\.dxf$/i.test(file.name) ? this.drawing(file) : ofImage(file)), id = crypto.randomUUID();
       this.close();
       this.store.images.set(id, data);
-      return this.store.setPicture({ id, width, height, opacity: USUAL_OPACITY, place: this.middle(width, height) });
+      return this.store.setPicture({ id, file: file.name, width, height, opacity: USUAL_OPACITY, place: place ?? this.middle(width, height) });
     } catch (error) {
       return this.banners.say("refused", `${file.name} is not shown: ${/** @type {Error} */ (error).message}.`);
     }
+  }
+
+  /** The curves of a DXF, at their own coordinates. */
+  async drawing(file) {
+    const body = { name: file.name, base64: await base64Of(file), length_unit: this.store.document.length_unit };
+    const { curves } = await (await this.store.connection.post("/drawing", body)).json(), made = ofCurves(curves);
+    this.banners.say("note", `${file.name} lies where it was drawn. Move it, or fit the view by the wheel.`);
+    return made;
   }
 
   /** A film, at its first frame. */

@@ -159,11 +159,11 @@ export class Files {
       if (file.size > LARGEST) throw new Refused(413, [{ message: `${file.name} has ${Math.round(file.size / 1000)} kB, and the page takes ${LARGEST / 1000}.`, help: "give it to the command: burmester studio FILE" }]);
       const body = { name: file.name, base64: await base64Of(file), length_unit: this.store.document.length_unit };
       if (asOutline) return this.outline(await (await this.server.post("/outline", body)).json(), file.name, other);
-      const { document, options = {}, notes = [] } = await (await this.server.post("/read", body)).json();
+      const { document, options = {}, notes = [], picture } = await (await this.server.post("/read", body)).json();
       const name = file.name.replace(/\.[^.]*$/, "");
       if (document.function) return this.function(document.function, name);
       const whole = TASKS.test(file.name);
-      this.store.replace(whole ? { document, options, name } : { document, options: this.store.options, name });
+      this.store.replace(whole ? { document, options, name, picture: this.store.known(picture) } : { document, options: this.store.options, name });
       this.opened?.();
       return this.banners.say("note", `${file.name} is open.`, notes, { undo: true, actions: other ? [other] : [] });
     }, other ? [other] : []);
@@ -198,7 +198,7 @@ export class Files {
   save() {
     return this.trying("Saving", async () => {
       try {
-        await this.hand(await this.server.post("/task", this.task), `${this.store.name}.toml`);
+        await this.hand(await this.server.post("/task", { ...this.task, picture: this.store.keptPicture }), `${this.store.name}.toml`);
       } catch (error) {
         if (error instanceof Refused) throw error;
         this.saveWithoutServer();
@@ -209,7 +209,7 @@ export class Files {
 
   /** The task as JSON, made by the page: what the command reads, where there is no server. */
   saveWithoutServer() {
-    download(new Blob([`${JSON.stringify(this.store.document, null, 2)}\n`], { type: "application/json" }), `${this.store.name.replace(/[^\w.-]+/g, "-") || "task"}.json`);
+    download(new Blob([`${JSON.stringify({ ...this.store.document, picture: this.store.keptPicture ?? undefined }, null, 2)}\n`], { type: "application/json" }), `${this.store.name.replace(/[^\w.-]+/g, "-") || "task"}.json`);
   }
 
   /** The linkage that is chosen: its id, or the dyads of one that is none of the answer. */

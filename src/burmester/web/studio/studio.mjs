@@ -206,7 +206,7 @@ async function main() {
     await connection.session();
     const start = await connection.get("/start"), kept = keptHere();
     const choice = start.choice ? { chosen: start.choice } : null, link = linkInAddress();
-    const store = new Store({ connection, document: start.document, options: start.options, name: start.name, choice, ...kept });
+    const store = new Store({ connection, document: start.document, options: start.options, name: start.name, picture: start.picture, choice, ...kept });
     const parts = layOut(root, store, start);
     if (start.saved && !kept) offerSaved(store, parts, start.saved);
     listenToAddress(connection, parts);

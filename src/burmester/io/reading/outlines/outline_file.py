@@ -129,6 +129,18 @@ def read_outline(
     )
 
 
+def read_curves(file: OutlineFile, length_unit: str | None, data: bytes) -> list[FloatArray]:
+    """All curves of a drawing as polylines (n, 2), in the unit of the task; closed ones end where
+    they begin.
+
+    Raises E130, E170, E173 and E174.
+    """
+    drawing = drawing_in(file, data)
+    factor = _factor(drawing.unit, length_unit)
+    rings = (np.vstack([e.points, e.points[:1]]) if e.closed else e.points for e in drawing.curves)
+    return [factor * each for each in rings]
+
+
 def drawing_in(file: OutlineFile, data: bytes | None = None, folder: str = "") -> Drawing:
     """The drawing in a file, or its part; raises E130, E170 and E173."""
     if file.kind not in (".dxf", ".svg"):
