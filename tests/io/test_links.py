@@ -29,7 +29,7 @@ LINK = f"t1={code(json.dumps([TASK, {'norm': 'worst'}, 'lid', 'L2']))}"
 
 
 def test_every_template_goes_through_a_link_of_less_than_a_thousand_characters():
-    for name in templates.of_places():
+    for name in templates.of_poses():
         document = document_of(read_file(f"{name}.toml", templates.text(name).encode()))
         link = write_link(LinkedTask(document, {}, name))
         assert len(link) < 1000
@@ -42,6 +42,8 @@ def test_a_link_opens_the_studio_with_its_options_name_and_choice():
     told = opening({"path": f"#{LINK}"}, b"")
     assert (told["options"], told["name"], told["choice"]) == ({"norm": "worst"}, "lid", "L2")
     assert [pose["x"] for pose in told["document"]["poses"]] == [0, 5, 9, 11, 9]
+    function = {"function": {"expression": "x**2", "x": [0, 1], "input_deg": 90, "output_deg": 60}}
+    assert opening({"path": f"t1={code(json.dumps([function]))}"}, b"")["function"]
     with pytest.raises(InputError, match="no option 'colour'"):
         opening({"path": f"t1={code(json.dumps([TASK, {'colour': 1}]))}"}, b"")
 

@@ -30,23 +30,22 @@ def opening(head: dict[str, Any], data: bytes) -> dict[str, Any]:
     """
     if (path := head["path"]) is None:
         return template(head["template"])
+    is_drawing = drawing_named(path) is not None  # maybe a part of it: its reader opens it
+    named = PurePath(path.removeprefix("case:")).stem if path != "-" else "task"
+    beside: dict[str, Any] = {"options": {}, "name": named}
     if is_link(path):
         link = read_link(path)
-        task = read_task(path, data=link.data)
         options_of(link.options)  # what cannot be asked is refused here
-        return {**link._asdict(), "document": document_of(task)}
-    name = PurePath(path.removeprefix("case:")).stem if path != "-" else "task"
-    is_drawing = drawing_named(path) is not None  # maybe a part of it: its reader opens it
-    if path != "-" and not is_drawing:
+        beside, data = link._asdict(), link.data
+    elif path != "-" and not is_drawing:
         data = read_source(path)
     if not is_drawing and is_function(data, path):
-        document = function_document(read_function(given, path))
-        return {"document": EMPTY, "function": document["function"], "options": {}, "name": name}
+        document = function_document(read_function(data, path))
+        return {**beside, "document": EMPTY, "function": document["function"]}
     task = read_task(path, data=None if is_drawing else data)
-    opened = {"document": document_of(task), "options": {}, "name": name}
     if path.lower().endswith((".toml", ".json")) and not path.startswith("case:"):
-        opened["picture"] = picture_in(path, data)
-    return opened
+        beside["picture"] = picture_in(path, data)
+    return {**beside, "document": document_of(task)}
 
 
 def template(name: str) -> dict[str, Any]:

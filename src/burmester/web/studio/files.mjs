@@ -255,6 +255,7 @@ export class Files {
     return this.trying("Opening the link", async () => {
       const { decode } = await tools(), { document: given, options, name, choice } = await decode(text);
       const { document, notes = [] } = await (await this.server.post("/read", { name: "task.json", text: JSON.stringify(given) })).json();
+      if (document.function) return this.function(document.function, name);
       await this.server.post("/check", { document, options });
       this.store.replace({ document, options, name: name.slice(0, LONGEST_NAME), choice: choice && { chosen: choice } });
       this.opened?.();
