@@ -11,6 +11,7 @@ E101 the list cannot be read    E177 a spring that is none
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Iterable, Iterator
 from importlib import resources
 
@@ -88,13 +89,27 @@ def _uncommented(lines: Iterable[str]) -> Iterator[str]:
 def springs_of_file(path: str) -> list[Offer]:
     """The springs of a CSV file; raises E101 and E177."""
     try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            rows = list(csv.DictReader(_uncommented(file)))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        why = getattr(error, "strerror", None) or str(error)
-        help = "name a CSV file in UTF-8 with the columns name, kind and the numbers of its springs"
-        raise InputError("E101", f"{path} cannot be read", why=why, help=help) from None
+        with open(path, "rb") as file:
+            return springs_in(file.read(), path)
+    except OSError as error:
+        raise _unreadable(path, error) from None
+
+
+def springs_in(data: bytes, path: str) -> list[Offer]:
+    """The springs in the bytes of a CSV file; raises E101 and E177."""
+    try:
+        lines = io.StringIO(data.decode("utf-8-sig"), newline="")
+        rows = list(csv.DictReader(_uncommented(lines)))
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise _unreadable(path, error) from None
     return list(_offers(path, rows))
+
+
+def _unreadable(path: str, error: Exception) -> InputError:
+
+    why = getattr(error, "strerror", None) or str(error)
+    help = "name a CSV file in UTF-8 with the columns name, kind and the numbers of its springs"
+    return InputError("E101", f"{path} cannot be read", why=why, help=help)
 
 
 def _offers(path: str, rows: list[dict[str, str]]) -> Iterator[Offer]:

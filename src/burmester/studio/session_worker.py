@@ -22,7 +22,7 @@ from burmester.io.reading.functions.function_options import read_links
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_curves, read_outline
 from burmester.io.result import json_line, synthesis_data
 from burmester.io.saved import read_result
-from burmester.io.spring_list import usual_springs
+from burmester.io.spring_list import in_pairs, springs_in, usual_springs
 from burmester.live.advice import advice_data
 from burmester.live.answers import FRAMES, LiveAnswers
 from burmester.live.document import (
@@ -44,7 +44,7 @@ from burmester.studio.exports import dyads_of, exported, formats, links_data, re
 from burmester.studio.message import as_json
 from burmester.studio.opening import template
 from burmester.studio.placed import placed
-from burmester.synthesis.balanced import springs_for
+from burmester.synthesis.balanced import BalanceRegions, springs_for, with_moved_pivots
 from burmester.synthesis.function_generation import generate_function, judge_links
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
@@ -207,15 +207,31 @@ class SessionWorker:
         return _json({"dyads": plain(links_data(found, name))})
 
     def balance(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
-        """Springs of usual sizes for one linkage of the result, the best first."""
-        from burmester.io.balance_table import balance_data  # noqa: PLC0415  loads rich
+        """Springs for one linkage of the result, the best first: usual ones, or of a list (CSV).
+
+        "pairs": two of each; "ground", "on_body": boxes in texts; "with_linkage": pivots move, too.
+        """
+        from burmester.io.balance_table import balance_data, corners_of  # noqa: PLC0415  loads rich
 
         linkage = given.get("linkage")
         with shown(job.listen):
             saved = read_result("-", data=self._result(head, given))
+            assert isinstance(saved.synthesis, Synthesis)
             found = saved.choose(linkage if isinstance(linkage, str) else None)
-            springs = springs_for(found, usual_springs(found.task.length_unit))
-        assert isinstance(saved.synthesis, Synthesis)
+            listed = _text(given, "springs")
+            offers = usual_springs(found.task.length_unit) if listed is None else (
+                springs_in(listed.encode("utf-8", "replace"), "the list")
+            )  # fmt: skip
+            if given.get("pairs") is True:
+                offers = in_pairs(offers)
+            regions = BalanceRegions(
+                corners_of("The box on the ground", _text(given, "ground")),
+                corners_of("The box on the body", _text(given, "on_body")),
+            )
+            springs = springs_for(found, offers, regions)
+            if given.get("with_linkage") is True and springs and isinstance(found, FoundLinkage):
+                springs += with_moved_pivots(springs[0], saved.synthesis.problem, offers, regions)
+                springs.sort(key=lambda each: each.order)
         return _json(balance_data(saved.synthesis, springs))
 
     def six_bars(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
@@ -306,6 +322,10 @@ HANDLERS: Final = frozenset(each for each in vars(SessionWorker) if each[0] != "
 
 def _json(data: object) -> Answer:
     return {"kind": "json"}, as_json(data)
+
+
+def _text(given: Any, key: str) -> str | None:
+    return value if isinstance(value := given.get(key), str) else None
 
 
 def _not_followed(why: str) -> Answer:

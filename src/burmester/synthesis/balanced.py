@@ -80,7 +80,7 @@ def balance(
         first = {each.found.id: each for each in reversed(out)}
         for each in sorted(first.values(), key=lambda each: each.order)[:MOST_MOVED]:
             if time_for(f"moving the pivots of {each.found.id}"):
-                out += _moved(each, answer, offers, regions)
+                out += with_moved_pivots(each, answer.problem, offers, regions)
         out.sort(key=lambda each: each.order)
     return answer, out
 
@@ -110,10 +110,16 @@ def springs_for(
     return balanced(found, offers, ground, body, most)
 
 
-def _moved(
-    start: Balanced, answer: Synthesis, offers: Sequence[Offer], regions: BalanceRegions | None
+def with_moved_pivots(
+    start: Balanced,
+    problem: SynthesisProblem,
+    offers: Sequence[Offer],
+    regions: BalanceRegions | None = None,
 ) -> list[Balanced]:
-    """A linkage moved for its spring and the spring for it, by turns with less force; or none."""
+    """A linkage moved for its spring and the spring for it, by turns with less force; or none.
+
+    start: of a linkage of four bars, its task without that spring being that of the problem.
+    """
     asked = start.found.task.requirements
     given = start.found
     assert isinstance(given, FoundLinkage)
@@ -131,7 +137,7 @@ def _moved(
             best.found, task=replace(best.found.task, requirements=replace(asked, **force))
         )
         better = list[Balanced]()
-        for each in _refined(found, answer.problem):
+        for each in _refined(found, problem):
             own = replace(each, id=f"{given.id}'", task=bare)
             better += springs_for(own, offers, regions, 1)
         one = min(better, key=lambda each: each.order, default=best)

@@ -1,12 +1,13 @@
 """Loads in the studio: their panel, springs in the picture, and both while a hand drags."""
 
+import numpy as np
 import pytest
 
 from burmester import synthesize
 from burmester.describe.quality_words import load_notes
-from burmester.io.spring_list import usual_springs
+from burmester.io.spring_list import in_pairs, usual_springs
 from burmester.live.document import task_of
-from burmester.synthesis.balanced import springs_for
+from burmester.synthesis.balanced import BalanceRegions, springs_for
 from tests.oracles.studio_page import (
     LID_OF_FIVE,
     choose,
@@ -138,6 +139,20 @@ def test_a_lid_gets_its_weight_a_hand_and_the_spring_that_makes_it_light(page):
     bare = synthesize(task_of(document)).best
     expected, *_ = springs_for(bare, usual_springs("mm"))
     page.locator("[data-do=find-spring]").click()
+    page.locator("[data-spring-name]").first.wait_for()
+    # Two of each, within a box: again those that Python finds, then the usual ones once more.
+    within = BalanceRegions(np.array([[-200, -260], [500, 60]]))
+    other, *_ = springs_for(bare, in_pairs(usual_springs("mm")), within)
+    page.locator("[data-section=balance] > summary").click()
+    page.locator("[data-balance=pairs]").check()
+    page.locator("[data-balance=ground]").fill("-200,-260:500,60")
+    page.locator("[data-do=find-spring]").click()
+    page.locator(f"[data-spring-name='{other.offer.name}']").first.wait_for()
+    assert page.locator("[data-spring-name]").all_inner_texts()[0].startswith("two ")
+    page.locator("[data-balance=pairs]").uncheck()
+    page.locator("[data-balance=ground]").fill("")
+    page.locator("[data-do=find-spring]").click()
+    page.locator(f"[data-spring-name='{expected.offer.name}']").first.wait_for()
     first = page.locator("[data-spring-name]").first
     assert first.get_attribute("data-spring-name") == expected.offer.name
     first.click()

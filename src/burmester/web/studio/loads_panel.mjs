@@ -6,7 +6,6 @@ import { radians } from "../widget/numbers.mjs";
 import { bodyOf, standing } from "./document.mjs";
 import { NumberField, PairField, button, choice, labelled } from "./fields.mjs";
 import { endOf, forcesOf, hasLoads, setAt, sidesOf, springsOf, valueOf, withEnd } from "./loads.mjs";
-import { springSearch } from "./spring_search.mjs";
 
 const DOWN = -9.80665; // m/s²: what a file's "down" says
 const LINKS = ["ground", "body", "driver", "follower"];
@@ -37,7 +36,9 @@ class Rows {
 
 export class LoadsPanel {
   /** form: of loads, as the start of the page says; handles: the points in the plane. */
-  constructor(store, scene, handles, answers, form) {
+  /** @type {any} */ search;
+
+  constructor(store, scene, handles, answers, surface, form) {
     this.store = store;
     this.scene = scene;
     this.handles = handles;
@@ -49,12 +50,18 @@ export class LoadsPanel {
     this.sizes = h("datalist", { id: "bs-spring-sizes" });
     this.forces = new Rows((k) => this.makeForce(k));
     this.springs = new Rows((k) => this.makeSpring(k));
-    const search = springSearch(store, answers);
+    const search = h("div", {}), find = button("Find a spring", () => this.find(search, surface), { "data-do": "find-spring" });
+    const canFind = () => {
+      give(find, "hidden", !store.document.loads);
+      give(find, "disabled", store.chosen === "placed" || !answers.shown);
+    };
+    store.on("document chosen solved", canFind);
+    canFind();
     this.element = h("details", { class: "bs-section bs-loads", "data-section": "loads" }, h("summary", {}, "Loads and springs"), this.fault, this.said, this.sizes,
       h("h4", {}, "Weight"), this.makeWeight(), h("h4", {}, "Hand and forces"), this.makeHand(), this.forces.element,
       h("div", { class: "bs-row" }, button("Add a force", () => this.addForce(), { "data-do": "add-force" })),
       h("h4", {}, "Springs"), this.springs.element,
-      h("div", { class: "bs-row" }, button("Add a spring", () => this.addSpring(), { "data-do": "add-spring" }), search.start), search.element,
+      h("div", { class: "bs-row" }, button("Add a spring", () => this.addSpring(), { "data-do": "add-spring" }), find), search,
       h("h4", {}, "Motion in time"), this.makeDrive());
     store.on("document selection", () => this.draw());
     store.on("messages", () => this.tell());
@@ -62,6 +69,14 @@ export class LoadsPanel {
     this.draw();
     this.sum();
     if (hasLoads(store.document)) this.element.open = true;
+  }
+
+  /** Look for springs; what they are chosen from is loaded when it is first asked for. */
+  async find(place, surface) {
+    // @ts-ignore: the server has it under this name
+    const { SpringSearch } = await import("/tools.mjs");
+    if (!this.search) place.append((this.search = new SpringSearch(this.store, surface)).element);
+    await this.search.run();
   }
 
   set(path, value) {

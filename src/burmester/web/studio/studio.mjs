@@ -58,7 +58,7 @@ function layOut(root, store, start) {
   const { playing, answers, surface } = addResults(store, scene, { player, results: cards, drawer }, { panel, regions });
   root.querySelector(".bs-bar")?.append(dimensionsButton(store, scene, playing, answers));
   drawer.add("judge", "Judge", new JudgePanel(store, answers, scene, surface, (what, then) => files.trying(what, then)).element);
-  const loads = new LoadsPanel(store, scene, new LoadHandles(store, scene, playing), answers, start.form.loads);
+  const loads = new LoadsPanel(store, scene, new LoadHandles(store, scene, playing), answers, surface, start.form.loads);
   panel.element.querySelector("[data-section=requirements]").before(loads.element);
   listenToKeys(store, scene, files);
   new Autosave(store);
