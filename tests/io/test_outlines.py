@@ -351,5 +351,5 @@ def test_a_region_over_the_body_at_a_pose_is_refused(tmp_path):
     with pytest.raises(InputError) as caught:
         read_task(task)
     assert caught.value.code == "E175"
-    assert caught.value.message == "the body lies over keep-out 'bumper' at pose 3 (open)"
+    assert caught.value.message == "the body touches keep-out 'bumper' at pose 3 (open)"
     assert "keep_out" in caught.value.where

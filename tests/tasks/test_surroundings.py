@@ -75,7 +75,7 @@ def test_a_body_is_clear_at_its_poses_or_refused() -> None:
         task(wall, near + 1e-9)
     assert caught.value.code == "E175"
     over = Polygon(wall.vertices - [2, 0])
-    with pytest.raises(InputError, match="lies over keep-out 'wall' at pose 2"):
+    with pytest.raises(InputError, match="touches keep-out 'wall' at pose 2"):
         task(over)
     with pytest.raises(InputError, match="touches keep-out 'wall' at pose 2"):
         task(Polygon(wall.vertices - [near, 0]))

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from typing import Final, Self, final
 
 import numpy as np
-import shapely
 
 from burmester.clearance.moving_parts import Pair, Ways, pairs_of
 from burmester.fourbar.circuits import Circuits
@@ -23,6 +22,7 @@ from burmester.fourbar.dyad import PP, PR, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
+from burmester.geometry.shapes import nearest_points
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.tasks.surroundings import Surroundings
 
@@ -127,8 +127,6 @@ def clearance_between_poses(
     if best <= 0:
         parameter = _first_contact(frames, apart[pair], index, chosen, backwards)
     there = frames.at(parameter)
-    ones, others = chosen.shapes(there.places)
-    points = shapely.get_coordinates(shapely.shortest_line(ones, others))
     return Clearance(
         best,
         error,
@@ -137,7 +135,7 @@ def clearance_between_poses(
         _poses_about(driven.parameter, float(parameter[0])),
         float(frames.circuit.inputs(parameter, there.places)[0]),
         there.places[0],
-        points,
+        nearest_points(*chosen.shapes(there.places))[0],
     )
 
 

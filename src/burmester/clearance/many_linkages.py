@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterator
 from typing import Final, NamedTuple
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
-from burmester.clearance.moving_parts import area, distances, lugs, moved, segments, shortened
+from burmester.clearance.moving_parts import lugs, shortened
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
+from burmester.geometry.shapes import distances, simplified
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.surroundings import Surroundings
 
@@ -35,19 +35,23 @@ class _Pair(NamedTuple):
 
 
 def _pairs(
-    places: Displacement, bars: FloatArray, body: Polygon | None, around: Surroundings
+    places: Displacement,
+    bars: FloatArray,
+    body: Polygon | None,
+    around: Surroundings,
+    enough: float,
 ) -> Iterator[_Pair]:
-    """All that must not touch."""
+    """All that must not touch; distances up to `enough` may be told as any up to it."""
     finite = np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1)
     half = around.link_width / 2
     for each in around.keep_out:
         if body is not None:
-            yield _body_and_region(places, finite, body, each.polygon)
+            yield _body_and_region(places, finite, body, each.polygon, enough)
         for number in range(bars.shape[2]):
-            yield _bars_and_region(bars[:, :, number], each.polygon, half)
+            yield _bars_and_region(bars[:, :, number], each.polygon, half, enough)
     if body is not None and around.body_in_plane:
         for number in (0, 1):
-            yield _links_and_body(places, bars[:, :, number], body, around)
+            yield _links_and_body(places, bars[:, :, number], body, around, enough)
 
 
 def shares_too_close(
@@ -67,7 +71,7 @@ def shares_too_close(
     within = around.margin + slack
     simple = None if body is None else _simplified(body)
     close = np.zeros(places.shape, dtype=bool)
-    for bounds, distances_at in _pairs(places, bars, simple, around):
+    for bounds, distances_at in _pairs(places, bars, simple, around, within):
         row, frame = np.nonzero((bounds <= within) & ~close)
         if len(row):
             close[row, frame] = distances_at(row, frame) <= within
@@ -75,7 +79,11 @@ def shares_too_close(
 
 
 def _body_and_region(
-    places: Displacement, finite: NDArray[np.bool_], body: Polygon, region: Polygon
+    places: Displacement,
+    finite: NDArray[np.bool_],
+    body: Polygon,
+    region: Polygon,
+    enough: float,
 ) -> _Pair:
     """The body and a region; whichever has fewer corners is moved."""
     middle = (body.vertices.min(axis=0) + body.vertices.max(axis=0)) / 2
@@ -86,26 +94,25 @@ def _body_and_region(
     def distances_at(row: NDArray[np.intp], frame: NDArray[np.intp]) -> FloatArray:
         some = places[row, frame]
         if len(region.vertices) < len(body.vertices):
-            return distances(moved(region, some.inverse()), area(body))
-        return distances(moved(body, some), area(region))
+            return distances(some.inverse()[:, None].act(region.vertices), body.vertices, enough)
+        return distances(some[:, None].act(body.vertices), region.vertices, enough)
 
     return _Pair(bounds, distances_at)
 
 
-def _bars_and_region(ends: FloatArray, region: Polygon, half: float) -> _Pair:
+def _bars_and_region(ends: FloatArray, region: Polygon, half: float, enough: float) -> _Pair:
     """Bars (k, n, 2, 2) and a region."""
-    shape = area(region)
     one, other = ends[..., 0, :], ends[..., 1, :]
     gap = _from_box(np.minimum(one, other), np.maximum(one, other), region)
     bounds = np.where(np.isnan(gap), np.inf, gap - half)
-    return _Pair(bounds, lambda *at: distances(segments(ends[at]), shape) - half)
+    return _Pair(bounds, lambda *at: distances(ends[at], region.vertices, enough + half) - half)
 
 
 def _links_and_body(
-    places: Displacement, ends: FloatArray, body: Polygon, around: Surroundings
+    places: Displacement, ends: FloatArray, body: Polygon, around: Surroundings, enough: float
 ) -> _Pair:
     """The body and links (k, n, 2, 2) in its plane, those that have a length."""
-    inside, half = area(body), around.link_width / 2
+    half = around.link_width / 2
     long = np.isfinite(ends).all(axis=(-1, -2)) & np.any(ends[:, :, 0] != ends[:, :, 1], axis=-1)
     long &= np.isfinite(places.angle)
 
@@ -113,7 +120,7 @@ def _links_and_body(
         own = places[row, frame].inverse()[:, None].act(ends[row, frame])
         _, first, linkage = np.unique(row, return_index=True, return_inverse=True)
         lug = lugs(own[first, 1], body, around)[linkage]
-        return distances(segments(shortened(own, lug)), inside) - half
+        return distances(shortened(own, lug), body.vertices, enough + half) - half
 
     return _Pair(np.where(long, -np.inf, np.inf), distances_at)
 
@@ -133,5 +140,4 @@ def _simplified(body: Polygon) -> Polygon:
     if len(body.vertices) <= FEW_CORNERS:
         return body
     size = float(np.linalg.norm(np.ptp(body.vertices, axis=0)))
-    short = area(body).simplify(OUTLINE_TOLERANCE * size, preserve_topology=True)
-    return Polygon(shapely.get_coordinates(short.exterior)[:-1])
+    return Polygon(simplified(body.vertices, OUTLINE_TOLERANCE * size))

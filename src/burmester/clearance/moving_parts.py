@@ -8,20 +8,17 @@ moving pivots.  The width of the bars is taken off the distances of their middle
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final, NamedTuple, TypeAlias, final
+from typing import Final, NamedTuple, final
 
 import numpy as np
-import shapely
-from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
+from burmester.geometry.shapes import distances
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.surroundings import Surroundings
-
-Geometries: TypeAlias = NDArray[np.object_]
 
 BODY: Final = "the body"
 BAR_NAMES: Final = ("the driver", "the follower", "the coupler")
@@ -76,18 +73,19 @@ class Pair:
         apart = distances(*self.shapes(places)) - self.width / 2
         return np.maximum(apart, 0.0)
 
-    def shapes(self, places: Displacement) -> tuple[np.ndarray, object]:
-        """Both as geometries of F at places (n,), the bar without its width."""
+    def shapes(self, places: Displacement) -> tuple[FloatArray, FloatArray]:
+        """The corners of both in F at places (n,), the bar without its width."""
         if self.bar is None:
             assert self.body is not None
             assert self.region is not None
-            return moved(self.body, places), area(self.region)
+            return places[:, None].act(self.body.vertices), self.region.vertices
         one = Linkage(self.linkage.first[None], self.linkage.second[None])
         ends = bars_of(one, places[None])[0, :, self.bar]
         if self.region is not None:
-            return segments(ends), area(self.region)
+            return ends, self.region.vertices
         assert self.body is not None
-        return segments(shortened(ends, np.asarray(self.lug))), moved(self.body, places)
+        own = shortened(ends, np.asarray(self.lug))
+        return own, places[:, None].act(self.body.vertices)
 
     def way(self, ways: Ways) -> FloatArray:
         """The longest way (n,) of any of their points, of both together where both move."""
@@ -153,23 +151,3 @@ def bars_of(linkage: Linkage, places: Displacement) -> FloatArray:
             out[:, :, number, 0] = dyad.fixed_pivot[:, None] if isinstance(dyad, RR) else pin
     out[:, :, 2, 0], out[:, :, 2, 1] = out[:, :, 0, 1], out[:, :, 1, 1]
     return out
-
-
-def area(polygon: Polygon) -> shapely.Polygon:
-    """The inside and the edge of a polygon."""
-    return shapely.Polygon(polygon.vertices)
-
-
-def moved(polygon: Polygon, places: Displacement) -> Geometries:
-    """A polygon of M in F, at places (n,); all of its places are finite."""
-    return np.asarray(shapely.polygons(places[:, None].act(polygon.vertices)))
-
-
-def segments(ends: FloatArray) -> Geometries:
-    """Segments between ends (n, 2, 2), points where both ends are one."""
-    return np.asarray(shapely.linestrings(ends))
-
-
-def distances(ones: Geometries, others: Geometries | shapely.Geometry) -> FloatArray:
-    """How far shapes are apart, (n,); 0 where they touch or overlap."""
-    return np.asarray(shapely.distance(ones, others), dtype=np.float64)

@@ -8,6 +8,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.clearance.many_linkages import shares_too_close
+from burmester.clearance.moving_parts import bars_of
 from burmester.families.open_task import Conditions, OpenTask, Trials
 from burmester.families.rail_freedom import RailFreedom
 from burmester.fourbar.circuits import Circuits
@@ -160,10 +162,6 @@ def _too_close(
     counts: tuple[int, ...],
 ) -> FloatArray:
     """Violations (k,) of what must not be touched, of linkages that meet all else or nearly so."""
-    # Shapely is imported for tasks with surroundings only.
-    from burmester.clearance.many_linkages import shares_too_close  # noqa: PLC0415
-    from burmester.clearance.moving_parts import bars_of  # noqa: PLC0415
-
     out = np.zeros(len(violation))
     some = np.flatnonzero(violation < NEARLY)
     around, slack = conditions.around, CLEARANCE_SLACK * conditions.span

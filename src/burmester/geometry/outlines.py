@@ -16,6 +16,7 @@ from burmester.numerics.arrays import FloatArray
 NODES: Final = 24  # of Gauss's rule on a side: arcs up to half a circle exact but for rounding
 
 
+SHARP: Final = -0.9  # cosine of the turn at a corner that is cut off square
 GRID_SIDE = 40  # points along a side of the grid; the point is the best of these, not the very best
 AS_DEEP = (
     0.95  # of the greatest depth: of points as deep as that the one nearest to the middle is taken
@@ -44,6 +45,29 @@ def convex_hull(points: FloatArray) -> FloatArray:
         return chain[:-1]
 
     return np.array(half(rows) + half(rows[::-1]))
+
+
+def grown_hull(points: FloatArray, by: float) -> FloatArray:
+    """The corners (n, 2) of a polygon that holds all within a length of points' convex hull.
+
+    Its sides are that far away; sharp corners are cut off square.
+    """
+    corners = convex_hull(points)
+    if len(corners) == 1:
+        return corners + by * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+    edge = np.roll(corners, -1, axis=0) - corners
+    along = edge / np.linalg.norm(edge, axis=1, keepdims=True)
+    normal = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    rows: list[FloatArray] = []
+    for at, one, two, into, out in zip(
+        corners, np.roll(normal, 1, axis=0), normal, np.roll(along, 1, axis=0), along, strict=True
+    ):
+        cosine = float(one @ two)
+        if cosine < SHARP:
+            rows += [at + by * (one + into), at + by * (two - out)]
+        else:
+            rows.append(at + by * (one + two) / (1 + cosine))
+    return np.array(rows)
 
 
 def rounded_hull(corners: FloatArray, radius: float) -> FloatArray:

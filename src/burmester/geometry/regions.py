@@ -242,7 +242,7 @@ class Polygon:
                 why=f"its {max(len(v), 1)} different corners lie on one line",
                 help="give three corners or more that enclose one, or a line or a point instead",
             )
-        if (meeting := _first_meeting(v)) is not None:
+        if (meeting := first_meeting(v)) is not None:
             raise InputError(
                 "E131",
                 f"a polygon crosses itself near {_shown(meeting.at)}",
@@ -456,7 +456,7 @@ class _Meeting(NamedTuple):
     at: FloatArray
 
 
-def _first_meeting(v: FloatArray) -> _Meeting | None:
+def first_meeting(v: FloatArray) -> _Meeting | None:
     """The first two edges of a polygon that meet, neighbours only where one goes back."""
     w = np.roll(v, -1, axis=0)
     after = np.roll(w, -1, axis=0)

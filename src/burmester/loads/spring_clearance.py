@@ -12,12 +12,12 @@ from dataclasses import dataclass, replace
 from typing import Final, Self, final
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
-from burmester.clearance.moving_parts import area, lugs, moved, segments, shortened
+from burmester.clearance.moving_parts import lugs, shortened
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon, feet
+from burmester.geometry.shapes import distances
 from burmester.loads.loaded_motion import LoadedMotion
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
@@ -66,21 +66,22 @@ class SpringClearance:
             apart = np.linalg.norm(near - pin[:, None], axis=-1).min(axis=0)
             kept = kept[apart >= free + PIN * self.around.link_width / 2]
         for each in self.around.keep_out:
-            region = area(each.polygon)
-            shapely.prepare(region)
-            kept = kept[~_near(region, lines[:, kept], free)]
+            kept = kept[~_near(each.polygon.vertices, lines[:, kept], free)]
         if self.body is not None:
             own = replace(self.around, link_width=diameter)
             lug = lugs(ends[kept, 2:], self.body, own)
-            drawn = moved(self.body, self.places)
-            shapely.prepare(drawn)
-            kept = kept[~_near(drawn[:, None], shortened(lines[:, kept], lug), free)]
+            drawn = self.places[:, None].act(self.body.vertices)
+            kept = kept[~_near(drawn, shortened(lines[:, kept], lug), free)]
         out = np.zeros(len(ends), dtype=bool)
         out[kept] = True
         return out
 
 
-def _near(shapes: object, lines: FloatArray, apart: float) -> NDArray[np.bool_]:
-    """Whether lines (n, m, 2, 2) are nearer to shapes than that at one of the places, (m,)."""
-    drawn = segments(lines.reshape(-1, 2, 2)).reshape(lines.shape[:2])
-    return np.asarray(shapely.dwithin(shapes, drawn, max(apart, 0.0)).any(axis=0))
+def _near(shapes: FloatArray, lines: FloatArray, apart: float) -> NDArray[np.bool_]:
+    """Whether lines (n, m, 2, 2) are nearer than that to shapes (n, k, 2) or (k, 2), (m,)."""
+    out = np.zeros(lines.shape[1], dtype=bool)
+    every = np.broadcast_to(shapes, (len(lines), *shapes.shape[-2:]))
+    for shape, there in zip(every, lines, strict=True):
+        left = np.flatnonzero(~out)
+        out[left] = distances(there[left], shape, apart) <= max(apart, 0.0)
+    return out

@@ -9,9 +9,12 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.clearance.moving_parts import bars_of
 from burmester.families.pivot_freedom import PivotFreedom
 from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.geometry.outlines import convex_hull, grown_hull
 from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box
+from burmester.geometry.shapes import distances
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
@@ -73,11 +76,8 @@ def wider(region: Region, points: FloatArray, share: float, task: Task) -> Wider
         return _wider_box(region, cells, at, task)
     corners = region.corners()
     assert corners is not None
-    import shapely  # noqa: PLC0415  seldom needed
-
     more = [cells, np.stack([cells[:, 0], np.roll(cells[:, 1], len(cells) // 2)], axis=1)]
-    hull = shapely.convex_hull(shapely.multipoints(np.concatenate([corners, *more])))
-    grown = Polygon(shapely.get_coordinates(hull)[:-1])
+    grown = Polygon(convex_hull(np.concatenate([corners, *more])))
     return WiderRegion(grown, by, f"{length_of(by, task)} outside their region", at)
 
 
@@ -103,11 +103,7 @@ def wider_all_around(region: Region, by: float) -> Polygon | None:
     corners = region.corners()
     if corners is None:
         return None
-    import shapely  # noqa: PLC0415  seldom needed
-
-    shape = shapely.convex_hull(shapely.multipoints(corners))
-    grown = shapely.buffer(shape, by, join_style="mitre", cap_style="square", quad_segs=2)
-    return Polygon(shapely.get_coordinates(grown)[:-1])
+    return Polygon(grown_hull(corners, by))
 
 
 def is_box(region: Polygon) -> bool:
@@ -147,8 +143,6 @@ def cleared(
     The shortest of some ways.  size: of the motion.  share: how much of the way.  None where the
     linkage does not come from pose to pose.
     """
-    import shapely  # noqa: PLC0415  only tasks with surroundings need it
-
     around = task.surroundings
     assert around is not None
     one, parts = around.keep_out[number], _swept(task, found)
@@ -157,13 +151,17 @@ def cleared(
     room = around.margin + SPARE * size
 
     def touches(shift: FloatArray) -> bool:
-        region = shapely.Polygon(one.polygon.vertices + shift)
-        return bool((shapely.distance(parts, region) <= room).any())
+        region = one.polygon.vertices + shift
+        return any(
+            bool((distances(shapes, region, room + half) <= room + half).any())
+            for shapes, half in parts
+        )
 
     if not touches(np.zeros(2)):
         return None
-    every = np.concatenate([shapely.get_coordinates(parts), one.polygon.vertices])
-    best, ways = float(np.linalg.norm(np.ptp(every, axis=0))) + 2 * room, np.zeros(2)
+    every = [one.polygon.vertices, *(shapes.reshape(-1, 2) for shapes, _ in parts)]
+    reach = float(np.linalg.norm(np.ptp(np.concatenate(every), axis=0)))
+    best, ways = reach + 2 * room + around.link_width, np.zeros(2)
     for angle in np.arange(DIRECTIONS) * 2 * math.pi / DIRECTIONS:
         way = np.round([math.cos(angle), math.sin(angle)], 12)
         if touches(best * way):
@@ -185,30 +183,24 @@ def cleared(
 
 def bars_clear(task: Task, number: int, dimensions: FloatArray) -> NDArray[np.bool_]:
     """Whether the links of RR dyads (k, 5) are clear of a keep-out region at poses: (k, N)."""
-    import shapely  # noqa: PLC0415  only tasks with surroundings need it
-
     around = task.surroundings
     assert around is not None
     pins = task.poses.act(dimensions[:, None, 2:4])
     fixed = np.broadcast_to(dimensions[:, None, :2], pins.shape)
-    bars = shapely.linestrings(np.stack([fixed, pins], axis=2))
-    away = shapely.distance(bars, shapely.Polygon(around.keep_out[number].polygon.vertices))
-    return np.asarray(away > around.link_width / 2 + around.margin)
+    free = around.link_width / 2 + around.margin
+    bars, region = np.stack([fixed, pins], axis=2), around.keep_out[number].polygon.vertices
+    return np.asarray(distances(bars, region, free) > free)
 
 
-def _swept(task: Task, found: FoundLinkage) -> NDArray[np.object_] | None:
-    """Body and links at places between the poses, as Shapely geometries."""
-    import shapely  # noqa: PLC0415  only tasks with surroundings need it
-
-    from burmester.clearance.moving_parts import bars_of  # noqa: PLC0415  the same
-
+def _swept(task: Task, found: FoundLinkage) -> list[tuple[FloatArray, float]] | None:
+    """Links and body at places between the poses: shapes (n, k, 2), and how thick they are."""
     places, around = places_between(found.driver_first, found.driven), task.surroundings
     if places is None or around is None:
         return None
     own = LinkageBatch.of([found.driver_first]).linkage_of_all()
     bars = bars_of(own, places[None]).reshape(-1, 2, 2)
     bars = bars[np.isfinite(bars).all(axis=(1, 2))]
-    shapes = [shapely.buffer(shapely.linestrings(bars), max(around.link_width / 2, 1e-9))]
+    parts = [(bars, around.link_width / 2)]
     if task.body is not None:
-        shapes.append(shapely.polygons(places[:, None].act(task.body.vertices)))
-    return np.concatenate(shapes)
+        parts.append((places[:, None].act(task.body.vertices), 0.0))
+    return parts

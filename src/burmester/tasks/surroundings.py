@@ -11,6 +11,7 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
+from burmester.geometry.shapes import distances, nearest_points
 from burmester.printable import printable
 from burmester.values import real_numbers, require_instance, short_text, shown
 
@@ -142,15 +143,12 @@ def require_clear_at_poses(
 
     names: of the poses in messages, "pose 2"; poses that are not finite are passed over.
     """
-    import shapely  # noqa: PLC0415  only tasks with surroundings need it
-
-    regions = [shapely.Polygon(each.polygon.vertices) for each in around.keep_out]
     known = np.flatnonzero(np.isfinite(poses.angle) & np.isfinite(poses.translation).all(axis=-1))
     for start in range(0, len(known), POSES_AT_ONCE):
         some = known[start : start + POSES_AT_ONCE]
-        outlines = shapely.polygons(poses[some][:, None].act(body.vertices))
-        for name, region in zip(around.names, regions, strict=True):
-            apart = shapely.distance(outlines, region)
+        outlines = poses[some][:, None].act(body.vertices)
+        for name, region in zip(around.names, around.keep_out, strict=True):
+            apart = distances(outlines, region.polygon.vertices)
             at = int(apart.argmin())
             if apart[at] > 0 and apart[at] >= around.margin:
                 continue
@@ -165,9 +163,8 @@ def require_clear_at_poses(
                 )
                 help = f"ask for a margin of {apart[at] * 0.9:.2g} or less, or {help}"
             else:
-                shared = shapely.intersection(outlines[at], region)
-                how = "lies over" if shared.area > 0 else "touches"
-                x, y = shapely.get_coordinates(shapely.point_on_surface(shared))[0]
+                how = "touches"
+                x, y = nearest_points(outlines[at], region.polygon.vertices)[0]
                 why = f"both have the point ({x:.6g}, {y:.6g}) of the ground, "
                 why += "and no linkage can meet that pose and stay clear"
             message = f"the body {how} keep-out {name} at {names[some[at]]}"

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final, Literal, Self, TypeAlias
+from typing import Final, Literal, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from burmester.clearance.least_clearance import Clearance
 from burmester.dyads.selection import FoundDyad
 from burmester.errors import Finding, InputError
 from burmester.fourbar.bodies import bodies_of_four_bar, places_of_bodies, scaled_linkage
@@ -29,9 +30,6 @@ from burmester.verdicts.quality import Quality
 from burmester.verdicts.requirement_check import four_bar_figures
 from burmester.verdicts.tolerances import Spread
 from burmester.verdicts.uncertainty import DyadUncertainty
-
-if TYPE_CHECKING:  # it imports Shapely, which only tasks with surroundings need
-    from burmester.clearance.least_clearance import Clearance
 
 Pair: TypeAlias = tuple[FoundDyad, FoundDyad]
 Side: TypeAlias = Literal["first", "second"]

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from burmester.clearance.least_clearance import Clearance, clearance_between_poses
 from burmester.errors import Finding
 from burmester.fourbar.defects import Verdict
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
@@ -21,9 +21,6 @@ from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import Side, with_driver_first
 from burmester.wording import figure, listed
-
-if TYPE_CHECKING:
-    from burmester.clearance.least_clearance import Clearance
 
 LIMIT_TOLERANCE = 1e-6  # motion sizes; a limit missed by less is met
 
@@ -137,9 +134,6 @@ def clearance_of(
     driven = verdict.first if driver == "first" else verdict.second
     if task.surroundings is None or verdict.defects or driven.defects:
         return None
-    # Shapely is imported for tasks with surroundings only.
-    from burmester.clearance.least_clearance import clearance_between_poses  # noqa: PLC0415
-
     led = with_driver_first(linkage, driver)
     clearance = clearance_between_poses(led, driven, task.body, task.surroundings)
     if clearance is None:

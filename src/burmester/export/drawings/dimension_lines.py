@@ -15,8 +15,9 @@ from typing import Literal, Self, TypeAlias, final
 
 import numpy as np
 
-from burmester.export.parts.plate import Plate, distances, moved, points_on
+from burmester.export.parts.plate import Plate, moved, points_on
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.shapes import distances
 from burmester.numerics.arrays import FloatArray
 
 LETTER_WIDTH = 0.68  # of the height of text: mean width of a letter, with room to spare

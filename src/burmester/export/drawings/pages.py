@@ -18,9 +18,10 @@ import numpy as np
 from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.drawings.sheet import Laid, laid_lengthwise
-from burmester.export.parts.plate import distances, outline_points
+from burmester.export.parts.plate import outline_points
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import INCH, stock_for
+from burmester.geometry.shapes import distances
 from burmester.numerics.arrays import FloatArray
 
 PAPERS: Final = {  # by whether the task's lengths are in inches or feet: width and height, mm

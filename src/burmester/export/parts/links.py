@@ -15,7 +15,7 @@ from typing import Final, NamedTuple, Self
 import numpy as np
 
 from burmester.export.options import Reference
-from burmester.export.parts.plate import distances
+from burmester.geometry.shapes import distances
 from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-import shapely
 
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.outlines import convex_hull, rounded_hull
+from burmester.geometry.shapes import distances
 from burmester.mechanisms.bodies import LinkPlaces
 from burmester.numerics.arrays import FloatArray
 
@@ -212,17 +212,3 @@ def points_on(outline: FloatArray, tolerance: float) -> FloatArray:
             z = centre + arm * complex(math.cos(angle * k / count), math.sin(angle * k / count))
             points.append(np.array([z.real, z.imag]))
     return np.array(points)
-
-
-def distances(one: FloatArray, two: FloatArray) -> FloatArray:
-    """The distances (*,) of shapes (*, k, 2) and (*, m, 2), 0 where they overlap.
-
-    A shape is a point (k = 1), a segment (2), or the corners of a convex polygon in their order.
-    """
-    return np.asarray(shapely.distance(_shapes(one), _shapes(two)))
-
-
-def _shapes(points: FloatArray) -> object:
-    if points.shape[-2] == 1:
-        return shapely.points(points[..., 0, :])
-    return (shapely.linestrings if points.shape[-2] == 2 else shapely.polygons)(points)

@@ -21,9 +21,10 @@ from burmester.errors import InputError
 from burmester.export.options import Options, Reference, unit_of
 from burmester.export.parts.dimensions import WALL, Dimensions, dimensions_of
 from burmester.export.parts.links import Arrangement, Links
-from burmester.export.parts.plate import Pin, Plate, distances, plate_of
+from burmester.export.parts.plate import Pin, Plate, plate_of
 from burmester.export.parts.stock import stock_for
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.shapes import distances
 from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate

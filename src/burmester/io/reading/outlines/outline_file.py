@@ -243,10 +243,9 @@ def _few_corners(points: np.ndarray, tolerance: float) -> tuple[np.ndarray, bool
     """The corners of a ring, fewer where there are too many, and whether there were."""
     if len(points) <= MAX_CORNERS:
         return points, False
-    import shapely
+    from burmester.geometry.shapes import simplified
 
-    ring = shapely.LinearRing(points).simplify(tolerance, preserve_topology=True)
-    return shapely.get_coordinates(ring)[:-1], True
+    return simplified(points, tolerance), True
 
 
 def drawing_named(text: str) -> OutlineFile | None:
