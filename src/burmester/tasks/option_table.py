@@ -199,8 +199,15 @@ LIMIT_OPTIONS: Final = (
         "LINE",
         'The rail of a slider on the ground, such as "direction:0+-2 through:0,0 '
         'travel:box:0,-5:400,5"; each part may be left out.',
+        "Rail of a slider, in the ground",
     ),
-    LimitOption("slot", "line", "LINE", "The same of a slot in the body, on the body."),
+    LimitOption(
+        "slot",
+        "line",
+        "LINE",
+        "The same of a slot in the body, on the body.",
+        "Slot of a block, in the body",
+    ),
 )
 
 # The tables at the top of a task in a file, and all keys there.

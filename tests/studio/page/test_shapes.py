@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from tests.oracles.studio_page import (
@@ -68,6 +69,35 @@ def test_a_region_is_drawn_named_moved_reshaped_and_deleted(page):
     assert page.locator("[data-region]").count() == 0
     page.keyboard.press("Control+z")
     assert page.locator("[data-region]").count() == 1
+
+
+def test_a_rail_and_a_slot_are_stated_and_drawn(page):
+    see_all(page)
+    section(page, "limits")
+    for line in ("rail", "slot"):
+        page.locator(f"[data-line={line}-0] > summary").click()
+    direction = page.locator("[data-key=rail-0-direction_deg]")
+    direction.fill("90")
+    direction.press("Enter")
+    draw_box(page, "limit 0 rail travel box", (100, -80), (140, 60))
+    draw_box(page, "limit 0 slot through box", (20, -10), (60, 20))
+    near = 1 / view(page)["scale"]
+    limits = kept(page)["limits"]
+    assert limits["rail"]["direction_deg"] == 90
+    assert np.array(limits["rail"]["travel"]["box"]) == pytest.approx(
+        np.array([[100, -80], [140, 60]]), abs=near
+    )
+    # A slot is of the body: it is drawn, and stated, where the body stands at the first pose.
+    low, high = np.array(limits["slot"]["through"]["box"])
+    assert high - low == pytest.approx([40, 30], abs=2 * near)
+    for mark in (".bs-rail-travel[data-plane=F]", ".bs-slot-through[data-plane=M]"):
+        assert page.locator(f"{mark}:not(.bs-met, .bs-broken)").count() == 1
+    page.locator(".bs-rail-travel .bs-shape-area").focus()
+    page.keyboard.press("Shift+ArrowLeft")
+    moved = np.array(kept(page)["limits"]["rail"]["travel"]["box"])
+    assert moved == pytest.approx(np.array(limits["rail"]["travel"]["box"]) - [10, 0])
+    page.locator("[data-do='delete-limit-0-slot through']").click()
+    assert kept(page)["limits"].keys() & {"rail", "slot"} == {"rail"}
 
 
 def test_a_region_in_the_way_is_seen_broken_and_the_task_is_refused(page):

@@ -4,7 +4,7 @@ import { put, s } from "../widget/dom.mjs";
 import { transform } from "../widget/drawing.mjs";
 import { hasGhost } from "../widget/outlines.mjs";
 import { px, radians } from "../widget/numbers.mjs";
-import { bodyOf, limitRegions, poseName, setBody, standing } from "./document.mjs";
+import { bodyOf, isOnBody, limitRegions, poseName, setBody, standing } from "./document.mjs";
 import { isOther } from "./pacing.mjs";
 import { Kept } from "./scene.mjs";
 import { ShapeHandles } from "./shape_handles.mjs";
@@ -47,7 +47,7 @@ export class BodyEditor {
   /** While something of the body is drawn, or has its handles, the pose where that is stands out. */
   watch() {
     const { store, scene } = this, { selection, document } = store;
-    const isOfBody = selection?.kind === "body" || (selection?.kind === "limit" && limitRegions(document)[selection.index]?.key === "moving_pivot"), isOn = Boolean(scene.tool?.isOfBody || isOfBody);
+    const isOfBody = selection?.kind === "body" || (selection?.kind === "limit" && isOnBody(limitRegions(document)[selection.index]?.key ?? "")), isOn = Boolean(scene.tool?.isOfBody || isOfBody);
     if (isOn === store.isOnBody) return;
     store.isOnBody = isOn;
     scene.svg.classList.toggle("bs-on-body", isOn);

@@ -2,7 +2,7 @@
 // advises, with buttons that do it.
 
 import { give, h, put } from "../widget/dom.mjs";
-import { limitsOf, regionsOf, setLimit, setRequirement, setUsual } from "./document.mjs";
+import { limitRegions, limitsOf, regionsOf, setLimit, setRequirement, setUsual } from "./document.mjs";
 import { provedOf } from "../widget/tables.mjs";
 import { button } from "./fields.mjs";
 import { limitName } from "./regions.mjs";
@@ -50,7 +50,7 @@ export class Chips {
       const set = (next) => store.edit((now) => setRequirement(now, each.key, next));
       return { key: each.key, text: textOf(each, value, unit), met: this.meets(each.of), remove: () => set(undefined), edit: () => this.field(each, value, set) };
     });
-    const limits = limitsOf(document).flatMap((table, k) => Object.keys(table).filter((key) => [...PIVOTS, "length", "kinds"].includes(key)).map((key) => this.limit(table, k, key)));
+    const limits = limitsOf(document).flatMap((table, k) => Object.keys(table).filter((key) => [...PIVOTS, "length", "kinds", "rail", "slot"].includes(key)).map((key) => this.limit(table, k, key)));
     const regions = regionsOf(document).map((region, k) => ({
       key: `region ${k}`, text: `keep out of ${region.name || `region ${k + 1}`}`, met: this.regions.touched ? !this.regions.touched[k] : null,
       remove: () => this.regions.removeRegion(k), edit: () => [this.show("region", k)],
@@ -65,7 +65,8 @@ export class Chips {
   limit(table, k, key) {
     const { store } = this, said = this.regions.said(k, key), range = ({ least, most }) => `${least === undefined ? "" : `from ${least} `}${most === undefined ? "" : `to ${most}`}`;
     const both = limitsOf(store.document).length < 2 ? "" : ` (dyad ${k + 1})`;
-    const text = key === "length" ? `link length ${range(table.length)}${both}` : key === "kinds" ? `kinds ${table.kinds.join(", ")}${both}` : `${limitName(store.document, { table: k, key })}: ${Object.keys(table[key])[0]}`;
+    const { direction_deg: angle, ...rest } = table[key];
+    const text = key === "rail" || key === "slot" ? `${key}${angle === undefined ? "" : ` at ${angle}°`}${rest.through || rest.travel ? " as drawn" : ""}${both}` : key === "length" ? `link length ${range(table.length)}${both}` : key === "kinds" ? `kinds ${table.kinds.join(", ")}${both}` : `${limitName(store.document, { table: k, key })}: ${Object.keys(table[key])[0]}`;
     return { key: `limit ${k} ${key}`, text, met: said && !said.length, remove: () => store.edit((now) => setLimit(now, k, { [key]: undefined })), edit: () => [this.show("limit", key, k)] };
   }
 
@@ -99,12 +100,12 @@ export class Chips {
   }
 
   select(key, k = 0) {
-    const { store } = this, all = limitsOf(store.document).flatMap((table, at) => PIVOTS.filter((each) => table[each]).map((each) => `${at} ${each}`));
-    store.select({ kind: "limit", index: all.indexOf(`${k} ${key}`) });
+    const { store } = this;
+    store.select({ kind: "limit", index: limitRegions(store.document).findIndex((each) => each.table === k && each.key === key) });
   }
 
   show(kind, which, k = 0) {
-    if (kind === "limit" && !PIVOTS.includes(which)) return h("p", { class: "bs-hint" }, "Its fields are under “Limits of pivots and links”.");
+    if (kind === "limit" && !PIVOTS.includes(which)) return h("p", { class: "bs-hint" }, "Its fields are under “Limits of pivots, links and rails”.");
     return button("Show it in the plane", () => (kind === "limit" ? this.select(which, k) : this.store.select({ kind, index: which })));
   }
 

@@ -139,9 +139,25 @@ export const setSurrounding = (document, key, value) =>
 /** The tables of limits, none to two. */
 export const limitsOf = (document) => (document.limits === undefined ? [] : [document.limits].flat());
 
+/** The regions of a table of limits by their keys: of pivots, and of the parts of a rail and of a slot. */
+export const LIMIT_KEYS = ["fixed_pivot", "moving_pivot", "rail through", "rail travel", "slot through", "slot travel"];
+
+/** The keys of those that belong to the body. */
+export const isOnBody = (key) => key === "moving_pivot" || key.startsWith("slot");
+
+/** A part of a table of limits by its key, such as "rail through". */
+export const limitPart = (table, key) => key.split(" ").reduce((part, name) => part?.[name], table);
+
+/** A table of limits with some parts changed, by their keys. */
+const withParts = (table, changes) =>
+  Object.entries(changes).reduce((now, [key, value]) => {
+    const [name, part] = key.split(" ");
+    return withKeys(now, { [name]: part ? filled(withKeys(now[name] ?? {}, { [part]: value })) : value });
+  }, table);
+
 /** Some keys of a table of limits; a table that is left empty stays where there are two. */
 export function setLimit(document, index, changes) {
-  const tables = limitsOf(document), changed = withKeys(tables[index] ?? {}, changes);
+  const tables = limitsOf(document), changed = withParts(tables[index] ?? {}, changes);
   const all = index < tables.length ? replaced(tables, index, changed) : [...tables, changed];
   const kept = all.length > 1 || filled(changed) ? all : [];
   return withKeys(document, { limits: kept.length > 1 ? kept : kept[0] });
@@ -157,8 +173,8 @@ export function splitLimits(document, apart) {
 /** Every region that limits draw in the plane: { table, key, shape, points } each, in order. */
 export const limitRegions = (document) =>
   limitsOf(document).flatMap((table, index) =>
-    ["fixed_pivot", "moving_pivot"].filter((key) => table[key]).map((key) => {
-      const [[shape, points]] = Object.entries(table[key]);
+    LIMIT_KEYS.filter((key) => limitPart(table, key)).map((key) => {
+      const [[shape, points]] = Object.entries(limitPart(table, key));
       return { table: index, key, shape, points: shape === "point" ? [points] : points };
     }),
   );

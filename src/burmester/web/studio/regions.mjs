@@ -5,7 +5,7 @@ import { act } from "../widget/kinematics.mjs";
 import { shortened } from "../widget/tables.mjs";
 import { atReference, referencePlace } from "./body_editor.mjs";
 import { currentLinkage, limitsMissed, missedSentence, regionsTouched } from "./conditions.mjs";
-import { addRegion, bodyOf, limitRegions, limitsOf, regionsOf, removeRegion, setLimit, setRegion, setRequirement, shapeOf } from "./document.mjs";
+import { addRegion, bodyOf, isOnBody, limitPart, limitRegions, limitsOf, regionsOf, removeRegion, setLimit, setRegion, setRequirement, shapeOf } from "./document.mjs";
 import { along } from "./name_places.mjs";
 import { outlineOf } from "./region_geometry.mjs";
 import { bounds } from "../widget/framing.mjs";
@@ -16,11 +16,11 @@ import { ShapeTool } from "./shape_tool.mjs";
 const LONGEST_NAME = 22;
 const ABOVE = 10; // pixels from an edge to the middle of a name
 const HATCH = 9; // pixels between the lines of a hatch
-const PIVOT = { fixed_pivot: "Fixed pivot", moving_pivot: "Moving pivot" };
+const NAMES = { fixed_pivot: "Fixed pivot", moving_pivot: "Moving pivot", "rail through": "Rail through", "rail travel": "Rail travel", "slot through": "Slot through", "slot travel": "Slot travel" };
 
 /** What a limit is called: of which pivot, and of which dyad where there are two tables. */
 export function limitName(document, { table, key }) {
-  return `${PIVOT[key]}${limitsOf(document).length > 1 ? ` of dyad ${table + 1}` : ""}`;
+  return `${NAMES[key]}${limitsOf(document).length > 1 ? ` of dyad ${table + 1}` : ""}`;
 }
 
 /** A region's shape and points; null where it is a drawing.
@@ -55,7 +55,7 @@ export class Regions {
   }
 
   place({ key }) {
-    return key === "moving_pivot" ? referencePlace(this.store) : GROUND;
+    return isOnBody(key) ? referencePlace(this.store) : GROUND;
   }
 
   corners(limit) {
@@ -83,9 +83,9 @@ export class Regions {
     this.onjudged?.();
   }
 
-  /** Sentences on a limit, by its table and key; null where no linkage is there. */
+  /** Sentences on a limit, by its table and key; null where no linkage is there, and of rails, which only the search judges. */
   said(table, key) {
-    return this.broken?.[table]?.filter((each) => each.key === key).map((each) => missedSentence(each, this.store.document.length_unit)) ?? null;
+    return /^(rail|slot)/.test(key) ? null : this.broken?.[table]?.filter((each) => each.key === key).map((each) => missedSentence(each, this.store.document.length_unit)) ?? null;
   }
 
   draw() {
@@ -100,7 +100,7 @@ export class Regions {
     }
     this.names.draw([
       ...regions.map((region, k) => [`region ${k}`, region.name && regionShape(region) ? { text: region.name, at: middle(outlineOf(...Object.values(regionShape(region)))) } : null]),
-      ...limits.map((limit) => [`limit ${limit.table} ${limit.key}`, { text: limitName(document, limit), at: middleOf(this.corners(limit), limit.key === "moving_pivot"), off: limit.key === "moving_pivot" ? ABOVE : -ABOVE, width: widthOf(this.corners(limit)) }]),
+      ...limits.map((limit) => [`limit ${limit.table} ${limit.key}`, { text: limitName(document, limit), at: middleOf(this.corners(limit), isOnBody(limit.key)), off: isOnBody(limit.key) ? ABOVE : -ABOVE, width: widthOf(this.corners(limit)) }]),
       ["footprint", footprint ? { text: "Footprint", at: middleOf(footprint.polygon ?? outlineOf("box", footprint.box), true), off: ABOVE, width: widthOf(footprint.polygon ?? footprint.box) } : null],
     ].filter(([, name]) => name));
   }
@@ -145,15 +145,15 @@ export class Regions {
     const { store } = this, place = () => this.place({ key });
     const at = () => limitRegions(store.document).findIndex((each) => each.table === table && each.key === key);
     return this.kept(new ShapeHandles(this.scene, {
-      className: `bs-limit bs-${key.replace("_", "-")}`,
+      className: `bs-limit bs-${key.replace(/[_ ]/, "-")}`,
       what: () => {
         const index = at(), limit = limitRegions(store.document)[index], said = this.said(table, key);
         return {
           ...limit, place: place(), name: `Limit: ${limitName(store.document, limit)}`, selected: store.selection?.kind === "limit" && store.selection.index === index,
-          state: said ? (said.length ? "broken" : "met") : "", data: { limit: index, plane: key === "moving_pivot" ? "M" : "F" },
+          state: said ? (said.length ? "broken" : "met") : "", data: { limit: index, plane: isOnBody(key) ? "M" : "F" },
         };
       },
-      set: (points, gesture) => store.edit((document) => setLimit(document, table, { [key]: shapeOf(Object.keys(limitsOf(document)[table][key])[0], points) }), { gesture }),
+      set: (points, gesture) => store.edit((document) => setLimit(document, table, { [key]: shapeOf(Object.keys(limitPart(limitsOf(document)[table], key))[0], points) }), { gesture }),
       remove: () => this.removeLimit(table, key),
       select: () => store.select({ kind: "limit", index: at() }),
       abandon: (gesture) => store.abandon(gesture),
@@ -204,7 +204,7 @@ export class Regions {
   limitTool(table, key, shape) {
     const { store } = this;
     return new ShapeTool(this.scene, {
-      shape, name: `limit ${table} ${key} ${shape}`, place: () => this.place({ key }), at: key === "moving_pivot" ? atReference(store) : "",
+      shape, name: `limit ${table} ${key} ${shape}`, place: () => this.place({ key }), at: isOnBody(key) ? atReference(store) : "",
       done: (points) => {
         store.edit((document) => setLimit(document, table, { [key]: shapeOf(shape, points) }));
         store.select({ kind: "limit", index: limitRegions(store.document).findIndex((each) => each.table === table && each.key === key) });

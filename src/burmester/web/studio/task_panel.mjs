@@ -1,12 +1,14 @@
 // What the linkage must be, in fields: limits of dyads, regions, requirements, options.
 
 import { give, h, put, say } from "../widget/dom.mjs";
-import { limitsOf, regionsOf, setBody, setLimit, setRegion, setRequirement, setSurrounding, shapeOf, splitLimits, bodyOf, limitRegions, poseName, withKeys } from "./document.mjs";
+import { limitPart, limitsOf, regionsOf, setBody, setLimit, setRegion, setRequirement, setSurrounding, shapeOf, splitLimits, bodyOf, limitRegions, poseName, withKeys } from "./document.mjs";
 import { NumberField, PairField, button, choice, labelled, textField, tick } from "./fields.mjs";
 import { hasLoads } from "./loads.mjs";
 import { PointFields } from "./point_fields.mjs";
 
 const SHAPES = ["point", "line", "segment", "box", "polygon"];
+/** @type {[string, string, string[]][]} */
+const OF_LINE = [["through", "passes through", SHAPES.filter((shape) => shape !== "line")], ["travel", "the pin stays within", SHAPES.slice(1)]];
 const SIGMA = [["position", "position", "length"], ["angle_deg", "angle", "angle"]];
 const MOST_NAMES = 200; // poses that are offered to be drawn at
 const UNITS = ["", "mm", "cm", "m", "in", "ft"];
@@ -76,7 +78,7 @@ export class TaskPanel {
     this.apart = tick("another limit for each of the two dyads", (on) => this.edit((document) => splitLimits(document, on)), { "data-key": "limits-apart" });
     this.tables = h("div", {});
     this.madeTables = [];
-    return section("limits", "Limits of pivots and links", false, this.apart.element, this.tables);
+    return section("limits", "Limits of pivots, links and rails", false, this.apart.element, this.tables, h("p", { class: "bs-hint" }, "A rail or a slot given once is for one of the two dyads."));
   }
 
   limitsOf(form) {
@@ -85,23 +87,34 @@ export class TaskPanel {
 
   makeTable(k) {
     const { store, regions } = this, edit = (changes) => this.edit((document) => setLimit(document, k, changes));
-    const title = h("h3", {}), parts = {};
-    for (const { key, label: name } of this.limitsOf("region")) {
+    const title = h("h3", {}), parts = {}, angles = [];
+    const part = (key, name, shapes = SHAPES) => {
       const state = h("p", { class: "bs-state" });
       const numbers = this.points(`the limit of the ${key.replace("_", " ")}`, (change) => this.edit((document) => withPoints(document, k, key, change)));
       const remove = button("Delete", () => regions.removeLimit(k, key), { "data-do": `delete-limit-${k}-${key}`, "aria-label": `Delete the limit: ${name}` });
       parts[key] = { state, numbers, remove };
-      parts[key].element = h("div", { class: "bs-limit-box" }, h("h4", {}, name), this.tools(`Draw a limit: ${name}`, SHAPES, (shape) => regions.limitTool(k, key, shape), `limit ${k} ${key}`), numbers.element, state, remove);
-    }
+      parts[key].element = h("div", { class: "bs-limit-box" }, h("h4", {}, name), this.tools(`Draw a limit: ${name}`, shapes, (shape) => regions.limitTool(k, key, shape), `limit ${k} ${key}`), numbers.element, state, remove);
+      return parts[key].element;
+    };
+    const pivots = this.limitsOf("region").map(({ key, label }) => part(key, label));
+    const lines = this.limitsOf("line").map(({ key, label }) => {
+      const angle = (name, words, options) => {
+        const field = new NumberField({ label: `${label}: ${words}`, commit: (value) => edit({ [`${key} ${name}`]: value }), options: () => ({ kind: "angle", optional: true, ...options }), attributes: { "data-key": `${key}-${k}-${name}`, placeholder: "–" } });
+        angles.push({ key: `${key} ${name}`, field });
+        return labelled(words, field.element, "°");
+      };
+      return h("details", { "data-line": `${key}-${k}` }, h("summary", {}, label), h("div", { class: "bs-row" }, angle("direction_deg", "direction"), angle("tolerance_deg", "±", { least: 0, below: 90 })),
+        OF_LINE.map(([name, words, shapes]) => part(`${key} ${name}`, words, shapes)));
+    });
     const least = this.length("least length", (value) => edit({ length: range(value, limitsOf(store.document)[k]?.length?.most) }), { least: 0 }, { "data-key": `least-${k}`, placeholder: "any" });
     const most = this.length("greatest length", (value) => edit({ length: range(limitsOf(store.document)[k]?.length?.least, value) }), { least: 0 }, { "data-key": `most-${k}`, placeholder: "any" });
     const [{ label, choices }] = this.limitsOf("kinds");
     const kinds = choices.map(([kind, text]) => ({ kind, ...tick(`${kind}: ${text}`, () => edit({ kinds: kindsOf(kinds) }), { "data-key": `kind-${k}-${kind}` }) }));
     const lengthState = h("p", { class: "bs-state" }), kindsState = h("p", { class: "bs-state" });
-    const element = h("div", { class: "bs-limit-table" }, title, Object.values(parts).map((part) => part.element),
+    const element = h("div", { class: "bs-limit-table" }, title, pivots,
       h("div", { class: "bs-row" }, labelled("length from", least.element), labelled("to", most.element)), lengthState,
-      h("div", { class: "bs-row", role: "group", "aria-label": label }, kinds.map((each) => each.element)), kindsState);
-    return { element, title, parts, least, most, kinds, lengthState, kindsState };
+      h("div", { class: "bs-row", role: "group", "aria-label": label }, kinds.map((each) => each.element)), kindsState, lines);
+    return { element, title, parts, angles, least, most, kinds, lengthState, kindsState };
   }
 
   drawLimits() {
@@ -113,7 +126,8 @@ export class TaskPanel {
     for (let k = 0; k < count; k += 1) {
       const table = tables[k] ?? {}, made = this.madeTables[k];
       say(made.title, count > 1 ? `Dyad ${k + 1}` : "Both dyads");
-      for (const key of Object.keys(made.parts)) this.drawLimit(made.parts[key], table[key]);
+      for (const key of Object.keys(made.parts)) this.drawLimit(made.parts[key], limitPart(table, key));
+      for (const { key, field } of made.angles) field.show(limitPart(table, key));
       made.least.show(table.length?.least);
       made.most.show(table.length?.most);
       for (const { kind, box } of made.kinds) box.checked = !table.kinds || table.kinds.includes(kind);
@@ -130,7 +144,7 @@ export class TaskPanel {
   drawVerdicts() {
     const { regions } = this, tables = limitsOf(this.store.document);
     this.madeTables.forEach((made, k) => {
-      for (const key of Object.keys(made.parts)) tell(made.parts[key].state, tables[k]?.[key] ? regions.said(k, key) : null);
+      for (const key of Object.keys(made.parts)) tell(made.parts[key].state, tables[k] && limitPart(tables[k], key) ? regions.said(k, key) : null);
       tell(made.lengthState, tables[k]?.length ? regions.said(k, "length") : null);
       tell(made.kindsState, tables[k]?.kinds ? regions.said(k, "kinds") : null);
     });
@@ -348,7 +362,7 @@ function tell(element, sentences) {
 
 /** A document with other points in a limit. */
 function withPoints(document, k, key, change) {
-  const [[shape, stated]] = Object.entries(limitsOf(document)[k][key]);
+  const [[shape, stated]] = Object.entries(limitPart(limitsOf(document)[k], key));
   return setLimit(document, k, { [key]: shapeOf(shape, change(shape === "point" ? [stated] : stated)) });
 }
 
