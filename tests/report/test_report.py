@@ -619,8 +619,15 @@ def test_image_points_are_where_a_camera_sees_them(browser, file):
 
 def test_paper_has_all_numbers(browser, file, synthesis):
     with browsers.opened(browser, file) as (page, said, _):
+        slider, said_of_it = page.locator(".bm-slider"), page.locator(".bm-now")
+        slider.evaluate(
+            "node => (node.value = 0.98 * node.max, node.dispatchEvent(new Event('input')))"
+        )
+        between = slider.input_value()
+        assert " from pose" in said_of_it.text_content()
         page.emulate_media(media="print")
         page.evaluate("dispatchEvent(new Event('beforeprint'))")
+        assert f"at pose {len(synthesis.task.poses.angle)}, off by" in said_of_it.text_content()
         for name in (".bm-list", ".bm-play", ".bm-slider"):
             assert not page.locator(name).is_visible()
         tables = page.locator(".bm-every-one table")
@@ -632,6 +639,8 @@ def test_paper_has_all_numbers(browser, file, synthesis):
             rows = page.locator(".bm-linkages tbody tr").nth(k)
             assert rows.is_visible()
             assert found.type in rows.text_content()
+        page.evaluate("dispatchEvent(new Event('afterprint'))")
+        assert slider.input_value() == between
         document = page.pdf()
         assert document.startswith(b"%PDF")
         assert said == []

@@ -3327,6 +3327,16 @@ function unfoldForPrint(root, signal) {
     }
   }, { signal });
 }
+function restForPrint(player, signal) {
+  let before = 0;
+  window.addEventListener("beforeprint", () => {
+    player.play(false);
+    before = player.u;
+    const [nearest] = player.linkage ? player.stopsOnWay.map(({ frame }) => frame).sort((a, b) => Math.abs(a - before) - Math.abs(b - before)) : [];
+    if (nearest !== void 0) player.go(nearest);
+  }, { signal });
+  window.addEventListener("afterprint", () => player.go(before), { signal });
+}
 var detailsOf = (root, which) => root.querySelectorAll(`details${which}`);
 
 // src/burmester/web/widget/report.mjs
@@ -3610,7 +3620,7 @@ var Report = class {
     unfoldForPrint(root, signal);
     if (!player) return;
     listenToKeys(this.root, this.plane.svg, player, signal);
-    window.addEventListener("beforeprint", () => player.play(false), { signal });
+    restForPrint(player, signal);
     player.play(false);
     if (!this.options.still && !window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
   }

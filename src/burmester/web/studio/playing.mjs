@@ -5,6 +5,7 @@ import { give, h, put, say } from "../widget/dom.mjs";
 import { frameAt } from "../widget/kinematics.mjs";
 import { fixed } from "../widget/numbers.mjs";
 import { Player } from "../widget/player.mjs";
+import { restForPrint } from "../widget/printing.mjs";
 import { wayOfMost } from "../widget/travel.mjs";
 import { Events } from "./events.mjs";
 import { drivenByOther } from "./other_driver.mjs";
@@ -32,6 +33,7 @@ export class Playing extends Events {
     answers.on("moved", () => this.follow());
     store.on("selection", () => this.goToSelected());
     store.on("state", () => this.hush());
+    restForPrint(this.player);
     new ResizeObserver(() => this.marks.ask()).observe(this.element);
     this.load();
   }

@@ -12,7 +12,7 @@ import { PivotMap } from "./pivot_map.mjs";
 import { FACTORS, Plane, factorFor, hasFarPivots } from "./plane.mjs";
 import { Player } from "./player.mjs";
 import { Plots } from "./plots.mjs";
-import { unfoldForPrint } from "./printing.mjs";
+import { restForPrint, unfoldForPrint } from "./printing.mjs";
 import { dyadTable, imageTables, nounOf, numbersOf, poseTable, provedOf, worded } from "./tables.mjs";
 import { factsOf, keyOf, loopKey, spaceStory } from "./words.mjs";
 
@@ -299,7 +299,7 @@ export class Report {
     unfoldForPrint(root, signal);
     if (!player) return;
     listenToKeys(this.root, this.plane.svg, player, signal);
-    window.addEventListener("beforeprint", () => player.play(false), { signal });
+    restForPrint(player, signal);
     player.play(false);
     if (!this.options.still && !window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
   }
