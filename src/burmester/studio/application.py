@@ -22,7 +22,7 @@ from burmester.studio.commands import commands
 from burmester.studio.message import as_json, from_json
 from burmester.studio.server_state import ServerState
 from burmester.studio.session import Session
-from burmester.studio.workers import WorkerEndedError
+from burmester.studio.workers import Message, WorkerEndedError
 
 OF_TASK = ("read", "outline", "drawing", "check", "task", "springs", "linkage")
 OF_RESULT = ("export", "result", "report", "improve")
@@ -72,6 +72,10 @@ def application(state: ServerState, door: Access) -> Starlette:
             return _refused(422, f"the task could not be kept: {error.args[0]}")
         return Response(status_code=204)
 
+    async def progress(request: Request) -> Response:
+        text = state.progress.get(request.path_params["name"], "")
+        return Response(as_json({"text": text}), media_type="application/json")
+
     async def live(socket: WebSocket) -> None:
         await Session(socket, state).run()
 
@@ -80,6 +84,7 @@ def application(state: ServerState, door: Access) -> Starlette:
         Route("/session", session, methods=["POST"]),
         Route("/start", start),
         Route("/template/{name}", template),
+        Route("/progress/{name}", progress),
         Route("/command", command, methods=["POST"]),
         Route("/autosave", save, methods=["PUT"]),
         *(Route(f"/{do}", _asks_worker(state, do, False), methods=["POST"]) for do in OF_TASK),
@@ -108,21 +113,41 @@ def _asks_worker(
     async def done(request: Request) -> Response:
         given = await _given(request)
         key = state.key_of(given) if of_result else None
-        return await _answer_of_worker(state, {"do": do}, await request.body(), key)
+        body, name = await request.body(), given.get("progress")
+        work = asyncio.ensure_future(_answer_of_worker(state, {"do": do}, body, key, name))
+        gone = asyncio.ensure_future(request.receive())  # after its body only that the page left
+        await asyncio.wait((work, gone), return_when=asyncio.FIRST_COMPLETED)
+        gone.cancel()
+        if not work.done():
+            work.cancel()
+            return Response(status_code=204)
+        return await work
 
     return done
 
 
 async def _answer_of_worker(
-    state: ServerState, head: dict[str, Any], body: bytes, key: str | None = None
+    state: ServerState,
+    head: dict[str, Any],
+    body: bytes,
+    key: str | None = None,
+    name: object = None,
 ) -> Response:
+    """What a worker answers; name: by which the page asks for the progress meanwhile."""
+
+    def said(message: Message) -> None:
+        if isinstance(name, str) and message[0]["kind"] == "progress":
+            state.progress[name] = message[1].decode()
+
     try:
-        answer, data = await state.desk(head, body, key)
+        answer, data = await state.desk(head, body, key, said)
     except TimeoutError:
         return _refused(422, "that took too long", "try it with the command")
     except WorkerEndedError as error:
         body = as_json({"messages": [error.data]})
         return Response(body, 503, media_type="application/json")
+    finally:
+        state.progress.pop(str(name), None)
     if answer["kind"] == "file":  # named by us, in letters, digits and hyphens
         headers = {"content-disposition": f'attachment; filename="{answer["name"]}"'}
         return Response(data, media_type="application/octet-stream", headers=headers)

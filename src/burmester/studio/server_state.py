@@ -73,6 +73,7 @@ class ServerState:
         self.turns = Turns(cores)
         self.answers = Answers()
         self.start: dict[str, Any] = {}
+        self.progress: dict[str, str] = {}  # of what is done with a task at rest, as pages name it
         self._opening: tuple[str, asyncio.Task[None]] | None = None
         self._formats: asyncio.Future[Any]
         self._background: set[asyncio.Task[Any]] = set()

@@ -146,7 +146,8 @@ class SessionWorker:
 
     def export(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """A linkage of the result in another format."""
-        data, name = exported(self._result(head, given), given)
+        with shown(job.listen):
+            data, name = exported(self._result(head, given), given)
         return {"kind": "file", "name": name}, data
 
     def result(self, head: dict[str, Any], given: Any, job: Job) -> Answer:

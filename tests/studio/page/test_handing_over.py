@@ -225,6 +225,22 @@ def test_a_link_carries_the_task_to_python_and_back_and_a_bad_one_changes_nothin
     page.wrong.clear()  # the browser tells of the last refusal
 
 
+def test_a_film_says_how_far_it_is_and_is_called_off(page):
+    page.locator("[data-menu=export] > summary").click()
+    page.locator("[data-menu=export] [data-section=export]").evaluate("node => (node.open = true)")
+    page.locator("[data-setting=seconds]").fill("7")
+    page.locator("[data-setting=seconds]").press("Enter")
+    page.locator("[data-export=gif]").click()
+    said = page.locator("[data-banner=exporting]", has_text="drawing picture")
+    said.wait_for()
+    page.locator("[data-do=cancel-export]").click()
+    said.wait_for(state="hidden")
+    assert not page.locator("[data-banner=refused]").count()
+    with page.expect_download() as exported:  # by the same workers
+        choose(page, "export", "data-export=svg")
+    assert exported.value.suggested_filename == "lid-hinge-L1.svg"
+
+
 def follow(page, fragment):
     """Go to this page with another fragment, as a link that is opened in its tab does."""
     page.evaluate("fragment => void (location.hash = fragment)", fragment)

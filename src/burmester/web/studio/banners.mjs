@@ -48,6 +48,7 @@ export class Banners {
     this.shown.get(kind)?.remove();
     this.shown.set(kind, banner);
     this.element.append(banner);
+    return banner;
   }
 
   close(kind) {

@@ -89,8 +89,8 @@ export class Connection {
   }
 
   /** The answer as a Response: JSON or a file. */
-  post(path, body, method = "POST") {
-    return this.request(path, { method, headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
+  post(path, body, method = "POST", signal = /** @type {AbortSignal | undefined} */ (undefined)) {
+    return this.request(path, { method, signal, headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
   }
 
   /** Raises Refused with the server's messages; a TypeError where there is no server. */

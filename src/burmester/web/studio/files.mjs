@@ -1,6 +1,6 @@
 // Files: opened, dropped, pasted, saved, exported; and the command line that does the same.
 
-import { give, h, put } from "../widget/dom.mjs";
+import { give, h, put, say } from "../widget/dom.mjs";
 import { isPath, setBody, withKeys } from "./document.mjs";
 import { Refused } from "./connection.mjs";
 import { button } from "./fields.mjs";
@@ -11,6 +11,7 @@ const KINDS = ".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";
 const BESIDE = ["limits", "requirements", "keep_out", "surroundings", "body"]; // what a task says beside its poses
 const HEADERS = { 2: ["x,y", "Read them as x, y: points"], 3: ["x,y,angle_deg", "Read them as x, y, angle in degrees"] }; // by the number of columns
 const LONGEST_NAME = 200; // characters of a task's name in a link
+const PROGRESS = 700; // milliseconds between two questions how far an export is, and before the first
 const LARGEST = 1_400_000; // bytes of a file: in base64 they are 2 MB with what is around them
 
 /** What is loaded when it is first used.
@@ -221,8 +222,28 @@ export class Files {
 
   export(path, what = {}) {
     return this.trying("Exporting", async () => {
-      this.hand(await this.server.post(path, { ...this.task, ...this.chosenLinkage, settings: this.store.settings, ...what }), "export");
+      const name = crypto.randomUUID(), ending = new AbortController(), { signal } = ending;
+      const asking = setInterval(() => this.tellProgress(name, ending), PROGRESS);
+      try {
+        const body = { ...this.task, ...this.chosenLinkage, settings: this.store.settings, progress: name, ...what };
+        await this.hand(await this.server.post(path, body, "POST", signal), "export");
+      } catch (error) {
+        if (!signal.aborted) throw error;
+      } finally {
+        clearInterval(asking);
+        ending.abort(); // whose answer comes late shows nothing
+        this.banners.close("exporting");
+      }
     });
+  }
+
+  /** How far an export is, with a button that ends it. */
+  async tellProgress(name, ending) {
+    const { text } = await this.server.get(`/progress/${name}`).catch(() => ({ text: "" }));
+    if (ending.signal.aborted) return;
+    const cancel = button("Cancel", () => ending.abort(), { "data-do": "cancel-export" });
+    const banner = this.banners.shown.get("exporting") ?? this.banners.say("exporting", "", [], { actions: [cancel] });
+    say(banner.querySelector(".bs-banner-title"), text ? `Exporting: ${text}.` : "Exporting…");
   }
 
   async hand(response, otherwise) {
