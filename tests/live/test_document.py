@@ -142,7 +142,7 @@ def test_a_message_shows_the_line_that_it_is_about():
     assert '"x": "1,5"' in refused.value.where
 
 
-@pytest.mark.parametrize("name", ["chest-lid.toml", "lid-hinge.toml", "gripper.toml"])
+@pytest.mark.parametrize("name", ["chest-lid.toml", "lid-hinge.toml", "sprung-lid.toml"])
 def test_a_document_of_which_the_poses_move_is_read_as_any_other(name):
     reader, document = TaskReader(), document_of(given(name))
     for step in range(3):

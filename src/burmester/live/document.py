@@ -108,6 +108,7 @@ class TaskReader:
                     surroundings=known.surroundings,
                     limits=known.limits,
                     requirements=known.requirements,
+                    loads=known.loads,
                     notes=known.notes,
                 )
         task = task_of(document)

@@ -15,6 +15,7 @@ from tests.oracles.studio_page import (
     drop,
     has_poses,
     kept,
+    middle,
     open_tab,
     see_all,
     solved,
@@ -88,6 +89,22 @@ def test_springs_follow_a_hand(page):
     solved(page)
     assert spring.get_attribute("d") != before
     assert page.locator("[data-panel=loads] .bm-stale").count() == 0
+    # A point that lies where a pose has its handle has its own beside it; it snaps as others do.
+    page.locator("[data-section=loads] > summary").click()
+    for axis in "xy":
+        enter(page, f"loads.hand.at.{axis}", "0")
+    poses = kept(page)["poses"]
+    x, y = middle(page, "[data-load=hand] .bs-hold")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.keyboard.down("Shift")
+    page.mouse.move(x + 3, y - 60, steps=4)
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    turn = np.exp(1j * np.radians(poses[1]["angle"]))
+    put = complex(*kept(page)["loads"]["hand"]["at"]) * turn
+    assert put == pytest.approx(60j / view(page)["scale"], abs=0.6)
+    assert kept(page)["poses"] == poses
 
 
 def test_fields_for_what_is_asked_of_loads(page):

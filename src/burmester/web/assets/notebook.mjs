@@ -436,6 +436,7 @@ body.bs { height: 100vh; height: 100dvh; min-height: 0; overflow: hidden; }
 .bs-load-centre .bs-load-mark { fill: var(--bm-muted); fill-rule: evenodd; stroke: var(--bm-muted); }
 .bs-load-hand .bs-load-mark { stroke: var(--bm-hand); }
 .bs-load-arrow { fill: none; stroke: var(--bm-bad); stroke-width: 2.2; pointer-events: none; }
+.bs-load-leader { fill: none; stroke: var(--bm-muted); stroke-dasharray: 2 3; pointer-events: none; }
 .bs-load-point:hover .bs-load-mark { stroke-width: 2.8; }
 .bs .bs-load-point:focus-visible { outline: none; }
 .bs-load-point:focus-visible .bs-hold { fill: var(--bm-accent); fill-opacity: 0.2; stroke: var(--bm-accent); stroke-width: 2; }
