@@ -9,6 +9,7 @@ import { limitName } from "./regions.mjs";
 
 const PIVOTS = ["fixed_pivot", "moving_pivot"];
 const SPOKEN = ["W215"]; // codes that chips say
+const FEW = 5; // chips of what is asked and kept, before the rest waits behind one
 
 /** A value of a requirement in words, as its field has them. */
 function textOf({ label, form, choices, kind }, value, unit) {
@@ -30,6 +31,7 @@ export class Chips {
     this.panel = panel;
     this.regions = regions;
     this.open = null; // the key of the chip whose editor is shown
+    this.isWhole = false; // whether all are shown
     this.list = h("ul", { class: "bs-chip-list", "aria-label": "Asked and assumed" });
     this.editor = h("div", { class: "bs-chip-editor", hidden: true });
     this.advice = h("div", { class: "bs-advice" });
@@ -118,12 +120,14 @@ export class Chips {
   // Drawing
 
   draw() {
-    const all = this.chips(), key = JSON.stringify([all.map(({ key: name, text, met, edit }) => [name, text, met, Boolean(edit)]), this.open]);
+    const all = this.chips(), key = JSON.stringify([all.map(({ key: name, text, met, edit }) => [name, text, met, Boolean(edit)]), this.open, this.isWhole]);
     if (key !== this.drawn) {
       const { activeElement } = this.list.getRootNode(), had = this.list.contains(activeElement) ? activeElement.dataset.chip : null;
       this.drawn = key;
-      const first = all.find(({ assumed }) => assumed);
-      this.list.replaceChildren(...all.flatMap((each) => [...(each === first ? [h("li", { class: "bs-chips-of" }, "Assumed:")] : []), this.chip(each)]));
+      const first = all.find(({ assumed }) => assumed), isShort = this.isWhole || all.length <= FEW + 1;
+      const shown = isShort ? all : all.filter((each, k) => k < FEW || each.assumed || each.met === false || each.key === this.open), more = all.length - shown.length;
+      const rest = more ? [h("li", { class: "bs-chip" }, h("button", { type: "button", "data-do": "all-chips", onclick: () => this.showAll() }, `and ${more} more`))] : [];
+      this.list.replaceChildren(...shown.filter(({ assumed }) => !assumed).map((each) => this.chip(each)), ...rest, ...shown.filter(({ assumed }) => assumed).flatMap((each) => [...(each === first ? [h("li", { class: "bs-chips-of" }, "Assumed:")] : []), this.chip(each)]));
       if (had) /** @type {HTMLElement} */ (this.list.querySelector(`[data-chip="${had}"]`))?.focus();
       const opened = all.find((each) => each.key === this.open);
       if (!opened?.edit) this.open = null;
@@ -132,6 +136,12 @@ export class Chips {
       give(this.editor, "hidden", !this.open);
     }
     this.drawAdvice();
+  }
+
+  showAll() {
+    this.isWhole = true;
+    this.draw();
+    /** @type {any} */ (this.list.children[FEW])?.firstElementChild.focus();
   }
 
   chip({ key, text, met, assumed = false, remove, edit }) {

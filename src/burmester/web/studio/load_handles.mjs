@@ -82,7 +82,9 @@ export class LoadHandles {
     put(mark, "d", force ? arrow(force, place) : "");
   }
 
-  /** Whether a point of F is so near to a pose that its handle has to stand beside it. */
+  /** Whether a point of F is so near to a pose that its handle has to stand beside it.
+   * @param {number[]} point
+   */
   beside([x, y]) {
     const { scale } = this.scene.view, { document } = this.store;
     return document.poses.some((_, k) => {
