@@ -1079,6 +1079,7 @@ view,n:this.n,...t}),this.n}rest(){clearTimeout(this.waiting),this.waiting=null,
 .bn-still { padding: 0 10px 8px; overflow: auto; }
 .bn-still svg { background: #fff; max-width: 100%; height: auto; }
 .bn-still figure { margin: 0; }
+.bm .bn-still table { width: auto; }
 .bn .bs-plane { height: auto; min-height: 0; }
 .bn .bs-scene { touch-action: pan-y; }
 .bn .bs-origin, .bn .bs-turn, .bn .bs-corner, .bn .bs-middle { touch-action: none; }

@@ -141,7 +141,7 @@ export class Backdrop {
   async drawing(file) {
     const body = { name: file.name, base64: await base64Of(file), length_unit: this.store.document.length_unit };
     const { curves } = await (await this.store.connection.post("/drawing", body)).json(), made = ofCurves(curves);
-    this.banners.say("note", `${file.name} lies where it was drawn. Move it, or fit the view by the wheel.`);
+    this.banners.say("note", `${file.name} lies at its own coordinates. Where it is out of sight, zoom out, or take Move it.`);
     return made;
   }
 
