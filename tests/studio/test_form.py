@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import click
 import pytest
 
 from burmester.cli import COMMANDS
@@ -73,9 +74,19 @@ def test_the_server_needs_no_numpy_for_it():
     assert done.stdout == "False\n"
 
 
-def test_every_command_has_its_row_in_the_docs():
-    page = Path("docs/studio.md").read_text(encoding="utf-8")
-    table = page.partition("## What the command can do")[2].partition("\n## ")[0]
-    rows = re.findall(r"^\| `(\w+)` \|", table, re.M)
-    named = {*rows, *re.findall(r"`(\w+)`(?=,| and| use)", table)}
-    assert named == {each.name for each in COMMANDS}
+def test_every_option_of_every_command_has_its_row_in_the_docs():
+    table = Path("docs/studio-and-command.md").read_text(encoding="utf-8")
+    told = set()
+    for row in re.findall(r"^\| (`.*)\|$", table, re.M):
+        commands, options, where = row.split(" | ")
+        names = re.findall(r"`(\w+)`", commands)
+        told |= {(name, option) for name in names for option in re.findall(r"`(-.*?)`", options)}
+        told |= {(name, "") for name in names}
+        assert where.strip()
+    there = {(each.name, "") for each in COMMANDS}
+    for command in COMMANDS:
+        given = [each for each in command.params if isinstance(each, click.Option)]
+        longs = [next((o for o in each.opts if o[:2] == "--"), each.opts[0]) for each in given]
+        there |= {(command.name, option) for option in longs if option != "--help"}
+    assert there - told == set()
+    assert {option for _, option in told} <= {option for _, option in there}
