@@ -10,6 +10,7 @@ const MANY = 60; // names, of which each has fewer places to choose from
 const OUTSIDE = 500; // cost of a name that is not wholly in the picture
 const HABIT = 6; // the cost by which another place has to be better than the one a name has
 const MISLEADING = 60; // cost of a name that stands nearer to the point of another one
+const COVERED = 0.15; // of its area; a lesser name that lies so far over others is not shown
 const SAME = 2; // how much worse a name on a name is than a name on a handle, of equal area
 
 /** Places around a point, the nearest to a direction first: [right, up, cost] of the middle of the name, in pixels.
@@ -56,9 +57,12 @@ export class NamePlaces {
     return this.names.size > MANY;
   }
 
-  /** The point that a name belongs to, in pixels, and the places that it may have beside it. */
-  put(element, x, y, text, places) {
-    const before = this.names.get(element), name = { x, y, text, places, at: before?.text === text ? before.at : places[0] };
+  /** The point that a name belongs to, in pixels, and the places that it may have beside it.
+   *
+   * isLesser: whether it is left out where there is no room for it.
+   */
+  put(element, x, y, text, places, isLesser = false) {
+    const before = this.names.get(element), name = { x, y, text, places, isLesser, at: before?.text === text ? before.at : places[0] };
     this.names.set(element, name);
     this.show(element, name);
     this.ask();
@@ -101,7 +105,13 @@ export class NamePlaces {
         stands.set(element, best.box);
       }
     }
-    for (const [element, name] of seen) this.show(element, name);
+    const shown = seen.filter(([, { isLesser }]) => !isLesser).map(([element]) => stands.get(element));
+    for (const [element, name] of seen) {
+      const box = stands.get(element), isHidden = name.isLesser && shown.some((other) => overlap(box, other) > COVERED * (box[2] - box[0]) * HEIGHT);
+      if (name.isLesser && !isHidden) shown.push(box);
+      put(element, "visibility", isHidden ? "hidden" : "visible");
+      this.show(element, name);
+    }
   }
 }
 

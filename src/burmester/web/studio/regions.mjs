@@ -185,7 +185,7 @@ export class Regions {
     const { scene } = this, { view } = scene, shown = shortened(name, LONGEST_NAME);
     say(text, shown);
     put(text, "class", off ? "bs-limit-name" : "bs-region-name");
-    scene.names.put(text, view.X(x), view.Y(y), shown, off ? along(off, view.scale * (width ?? 0)) : [[0, 0, 0]]);
+    scene.names.put(text, view.X(x), view.Y(y), shown, off ? along(off, view.scale * (width ?? 0)) : [[0, 0, 0]], Boolean(off));
   }
 
   // Tools that draw a new one
