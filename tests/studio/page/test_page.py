@@ -51,10 +51,11 @@ UNNAMED = """() => {
 # pose than to their own.  `letters` are the pixels that a box of text is wider than its letters.
 CROWDED = """(letters) => {
   const boxOf = (node) => node.getBoundingClientRect();
-  const names = [...document.querySelectorAll(".bs-pose-name")].map((node) => {
+  const named = (of) => [...document.querySelectorAll(of)].map((node) => {
     const { left, top, right, bottom } = boxOf(node);
     return { text: node.textContent, left, right, top: top + letters, bottom: bottom - letters };
   });
+  const names = named(".bs-pose-name"), limits = named(".bs-limit-name:not([visibility=hidden])");
   const origins = [...document.querySelectorAll(".bs-origin .bs-dot")].map(boxOf);
   const tips = [...document.querySelectorAll(".bs-turn .bs-tip")].map(boxOf);
   const meet = (a, b) =>
@@ -66,7 +67,7 @@ CROWDED = """(letters) => {
   };
   return names.filter((name, k) =>
     [...origins, ...tips].some((dot) => meet(name, dot)) ||
-    names.some((other) => other !== name && meet(name, other)) ||
+    [...names, ...limits].some((other) => other !== name && meet(name, other)) ||
     origins.some((dot) => away(name, dot) < away(name, origins[k]) - 1)
   ).map(({ text }) => text);
 }"""
