@@ -25,7 +25,7 @@ from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of, take
+from burmester.numerics.arrays import ComplexArray, FloatArray, Indexed, complex_of, pairs_of
 
 SIZE = 9  # dimensions of a crank-driven linkage and its coupler point
 G1, G2 = slice(0, 2), slice(2, 4)  # the fixed pivots, the crank's first
@@ -52,7 +52,7 @@ class CrankPlaces(NamedTuple):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class CrankLinkages:
+class CrankLinkages(Indexed):
     """Linkages (k,) of two RR dyads, the first a crank, with their coupler points.
 
     dimensions: (k, 9), the fixed pivots G1 and G2, the lengths a, b, r, and the coupler point c.
@@ -83,10 +83,6 @@ class CrankLinkages:
 
     def __len__(self) -> int:
         return len(self.assembly)
-
-    def __getitem__(self, index: Any) -> CrankLinkages:
-        """Pick linkages (slices, masks, index arrays)."""
-        return take(self, index)
 
     def at(self, t: FloatArray) -> CrankPlaces:
         """The places at crank angles t (k, n), in radians."""

@@ -24,7 +24,7 @@ from burmester.fourbar.coupler_kernel import (
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, take
+from burmester.numerics.arrays import FloatArray, Indexed
 
 DYAD_KINDS: Final = (RR, PR, RP)  # the kinds of dyads, by their number in a batch
 DIMENSIONS: Final = 5  # number of dimensions of a dyad; a slider leaves the last one unused
@@ -46,7 +46,7 @@ class ConstraintJacobians(NamedTuple):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class LinkageBatch:
+class LinkageBatch(Indexed):
     """Linkages (k,) of two dyads each, RR, PR or RP.
 
     kinds: (k, 2), indices in DYAD_KINDS.
@@ -78,10 +78,6 @@ class LinkageBatch:
 
     def __len__(self) -> int:
         return len(self.kinds)
-
-    def __getitem__(self, index: Any) -> LinkageBatch:
-        """Pick linkages (slices, masks, index arrays)."""
-        return take(self, index)
 
     def linkage(self, index: int) -> Linkage:
         """The linkage at an index."""

@@ -10,7 +10,7 @@ stays the same.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import Any, Self, final
+from typing import Self, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import Linkage
-from burmester.numerics.arrays import FloatArray, take, wrapped_angle
+from burmester.numerics.arrays import FloatArray, Indexed, wrapped_angle
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Generator:
+class Generator(Indexed):
     """Function generators (*,).
 
     input_link, coupler, output_link: lengths (*,) in ground links.
@@ -41,10 +41,6 @@ class Generator:
     def __post_init__(self) -> None:
         for each in fields(self):
             object.__setattr__(self, each.name, np.asarray(getattr(self, each.name), dtype=float))
-
-    def __getitem__(self, index: Any) -> Self:
-        """Pick along the leading axes."""
-        return take(self, index)
 
     def __len__(self) -> int:
         return len(self.input_link)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
-from typing import Any, Literal, TypeAlias, TypeVar, cast
+from typing import Any, Literal, Self, TypeAlias, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,6 +101,16 @@ def take(bundle: Bundle, index: Any) -> Bundle:
         return part[index]
 
     return _for_each_array(rows, bundle)
+
+
+class Indexed:
+    """A bundle that is picked from like an array."""
+
+    __slots__ = ()
+
+    def __getitem__(self, index: Any) -> Self:
+        """Pick along the leading axes (indices, slices, masks)."""
+        return take(self, index)
 
 
 def concatenate(bundles: Sequence[Bundle]) -> Bundle:

@@ -10,7 +10,7 @@ and McCarthy, "The synthesis of six-bar linkages as constrained planar 3R chains
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, final
+from typing import NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,23 +19,19 @@ from burmester.dyads.five_poses import dyads_of_five
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.circles import meeting
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, take
+from burmester.numerics.arrays import ComplexArray, FloatArray, Indexed, complex_of
 from burmester.sixbar.watt import WattLinkage
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class ThreeRChain:
+class ThreeRChain(Indexed):
     """3R chains (*,): A in F (*, 2), the lengths of AC and CE (*,), E in M (*, 2)."""
 
     fixed_pivot: FloatArray
     first_length: FloatArray
     second_length: FloatArray
     body_joint: FloatArray
-
-    def __getitem__(self, index: Any) -> ThreeRChain:
-        """Pick along the leading axes (indices, slices, masks)."""
-        return take(self, index)
 
     def elbows(self, poses: Displacement, side: FloatArray) -> ComplexArray:
         """Where C is at poses (*, N), to the left (+1) or right of AE: (*, N); nan out of reach.

@@ -19,7 +19,7 @@ second loop beside at most two of the first, and between two that follow each ot
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar, Final, NamedTuple, final
+from typing import ClassVar, Final, NamedTuple, final
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from burmester.mechanisms.circles import arccos_or_nan, meeting, side_of
 from burmester.mechanisms.contract import Locked, drive_of
 from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, take
+from burmester.numerics.arrays import ComplexArray, FloatArray, Indexed, complex_of
 
 
 class Sides(NamedTuple):
@@ -168,7 +168,7 @@ WATT_I: Final = Skeleton(
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class WattLinkage:
+class WattLinkage(Indexed):
     """Six-bars of Watt's first kind, one or many: leading axes are theirs.
 
     Attributes
@@ -213,10 +213,6 @@ class WattLinkage:
     def shape(self) -> tuple[int, ...]:
         """The leading axes: () for one linkage."""
         return self.first_crank.shape
-
-    def __getitem__(self, index: Any) -> WattLinkage:
-        """Pick along the leading axes (indices, slices, masks)."""
-        return take(self, index)
 
     def frames(self) -> Frames:
         """The joints (*, 2) of each link, in the frame of that link: {"coupler": {"C": ...}}."""

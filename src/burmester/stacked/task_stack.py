@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Self, final
+from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, take
+from burmester.numerics.arrays import FloatArray, Indexed
 from burmester.tasks.motion_task import MOST, MOST_RATIO, MOST_TURN, Task
 from burmester.values import real_numbers
 
@@ -19,7 +19,7 @@ SAFE = 1.001  # by which a task has to keep off the border of what can be comput
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class TaskStack:
+class TaskStack(Indexed):
     """Tasks (T,) of N poses each, without limits, requirements and tolerances.
 
     Attributes
@@ -75,10 +75,6 @@ class TaskStack:
 
     def __len__(self) -> int:
         return len(self.poses)
-
-    def __getitem__(self, index: Any) -> Self:
-        """Pick tasks (slices, masks, index arrays)."""
-        return take(self, index)
 
     @property
     def displacements(self) -> Displacement:

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Final, NamedTuple, final
+from typing import ClassVar, Final, NamedTuple, final
 
 import numpy as np
 
 from burmester.mechanisms.contract import Locked
 from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of, take
+from burmester.numerics.arrays import ComplexArray, FloatArray, Indexed, complex_of, pairs_of
 from burmester.stephenson.chain import EXCHANGED, JOINTS, TURNED_OVER, Chain, inserted
 from burmester.stephenson.standstill import standstill
 
@@ -125,7 +125,7 @@ CLASSES: Final[Mapping[str, StephensonClass]] = {
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class StephensonLinkage:
+class StephensonLinkage(Indexed):
     """Six-bars of Stephenson's chain, one or many: leading axes (*,) are theirs.
 
     Attributes
@@ -168,10 +168,6 @@ class StephensonLinkage:
     def shape(self) -> tuple[int, ...]:
         """The leading axes: () for one linkage."""
         return self.chain.base.shape
-
-    def __getitem__(self, index: Any) -> StephensonLinkage:
-        """Pick along the leading axes (indices, slices, masks)."""
-        return take(self, index)
 
     @staticmethod
     def driver_name(pivot: str) -> str:
