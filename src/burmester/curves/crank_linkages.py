@@ -25,7 +25,7 @@ from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray, Indexed, complex_of, pairs_of
+from burmester.numerics.arrays import ComplexArray, FloatArray, Indexed, complex_of, dot, pairs_of
 
 SIZE = 9  # dimensions of a crank-driven linkage and its coupler point
 G1, G2 = slice(0, 2), slice(2, 4)  # the fixed pivots, the crank's first
@@ -97,9 +97,9 @@ class CrankLinkages(Indexed):
             sine = self.assembly[:, None] * np.sqrt(1 - cosine * cosine)
             turn = to * (cosine + 1j * sine) / size
             pull = (b * turn - to) / r
-            gain = 1j * turn * (c / (b * _along(pull, 1j * turn)))
+            gain = 1j * turn * (c / (b * dot(pull, 1j * turn)))
             velocity = 1j * a * crank
-            velocity = velocity - gain * _along(pull, velocity)
+            velocity = velocity - gain * dot(pull, velocity)
         return CrankPlaces(pin + c * turn, turn, velocity)
 
     def moved(self, factor: ComplexArray, shift: ComplexArray) -> CrankLinkages:
@@ -172,11 +172,6 @@ class CrankLinkages(Indexed):
         z = self.dimensions[:, :, None]
         lengths = (z[:, at] for at in (A, B, R))
         return z[:, 0] + 1j * z[:, 1], z[:, 2] + 1j * z[:, 3], *lengths, z[:, 7] + 1j * z[:, 8]
-
-
-def _along(u: ComplexArray, v: ComplexArray) -> FloatArray:
-    """The scalar product of two vectors as complex numbers."""
-    return np.asarray(u.real * v.real + u.imag * v.imag)
 
 
 def linkages_of_five_points(

@@ -16,13 +16,12 @@ from burmester.numerics.arrays import ComplexArray, FloatArray, unique_index, un
 from burmester.numerics.linear_algebra import matvec, one_thread, solve_where_regular
 from burmester.polynomials import elimination, macaulay
 from burmester.polynomials.bilinear_fit import Parameters, circle_shape
-from burmester.polynomials.elimination import CHARTS
+from burmester.polynomials.elimination import BALANCE, CHARTS
 
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
 # Number of steps of Newton's method; three are usual, more than 5 are taken only towards points
 # that lie close together.
 FEW_STEPS, MOST_STEPS = 10, 40
-BALANCE = 0.4  # target ratio of linear to bilinear terms; the result is not sensitive to it
 REAL_TOLERANCE = 1e-8  # relative; a smaller imaginary part is rounding
 SINGULAR_SHARE = 1e-14  # of the Hessian's greatest singular value; a smaller one is rounding
 # Share of the fourth power of its size; the determinant of a Hessian that is greater is not zero,

@@ -36,11 +36,12 @@ from typing import Any, NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.geometric_fit import DIVISOR_FLOOR
 from burmester.errors import InputError
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage_batch import row_of
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray, dot
 from burmester.numerics.least_squares import Kernel, levenberg_marquardt
 
 MIN_POSES = 5  # of a fit; with fewer a whole curve of dyads has distance zero
@@ -49,7 +50,6 @@ MAX_VALLEYS = 5  # of the distance; a harmonic of order 2 squared has four, and 
 MAX_NEWTON_STEPS = 20  # down a valley
 BRACKET_ROUNDING = 1e-12  # share of the sampled range; a Newton step so far outside is inside
 SETTLED_ROUNDINGS = 100  # times the rounding; after steps below this the next is rounding
-DIVISOR_FLOOR = 1e-300  # lengths; keeps 0 / 0 away
 
 
 @final
@@ -205,13 +205,13 @@ def _surfaces(at: ImagePoints, x: FloatArray) -> _Surfaces:
     radius = x[..., None, 4]
     u, velocity = at.place + fixed + moving, 1j * (moving - fixed)  # velocity: du/dpsi
     u_by, velocity_by = _arms_by(at.half_rotation)
-    normal = np.stack([u.real, u.imag, _dot(u, velocity)], axis=-1) * 2
+    normal = np.stack([u.real, u.imag, dot(u, velocity)], axis=-1) * 2
     by = np.empty((*u.shape, 5))
-    by[..., :4] = 2 * _dot(u[..., None], u_by)
+    by[..., :4] = 2 * dot(u[..., None], u_by)
     by[..., 4] = -radius / 2
     normal_by = np.zeros((*u.shape, 3, 5))
     normal_by[..., 0, :4], normal_by[..., 1, :4] = 2 * u_by.real, 2 * u_by.imag
-    by_psi = _dot(velocity[..., None], u_by) + _dot(u[..., None], velocity_by)
+    by_psi = dot(velocity[..., None], u_by) + dot(u[..., None], velocity_by)
     normal_by[..., 2, :4] = 2 * by_psi
     return _Surfaces(_square(u) - radius**2 / 4, normal, by, normal_by)
 
@@ -281,7 +281,7 @@ def manifold_distance(at: ImagePoints, x: FloatArray) -> tuple[FloatArray, Float
     u, a, a_by_t = foot.u[..., 0], foot.distance[..., 0], foot.derivative[..., 0]
     by = np.empty((*a.shape, 5))
     u_by, _ = _arms_by(at.half_rotation * foot.rotation[..., 0])
-    by[..., :4] = _dot((u / np.maximum(np.abs(u), DIVISOR_FLOOR))[..., None], u_by)
+    by[..., :4] = dot((u / np.maximum(np.abs(u), DIVISOR_FLOOR))[..., None], u_by)
     by[..., 4] = -np.sign(x[..., None, 4]) / 2
     # At the foot t = -a da/dt, and the distance is |a| sqrt(1 + (da/dt)²): smooth through zero.
     return np.copysign(np.hypot(a, t[..., 0]), a), by / np.sqrt(1 + a_by_t**2)[..., None]
@@ -350,17 +350,13 @@ def _circle_distance(parts: tuple[Any, ...], t: FloatArray) -> _CircleDistance:
     u: ComplexArray = place + fixed + moving
     velocity: ComplexArray = 1j * (moving - fixed)
     size = np.maximum(np.abs(u), DIVISOR_FLOOR)
-    derivative = _dot(u, velocity) / size
-    second = (_square(velocity) - _dot(u, fixed + moving) - derivative**2) / size
+    derivative = dot(u, velocity) / size
+    second = (_square(velocity) - dot(u, fixed + moving) - derivative**2) / size
     return _CircleDistance(u, size - half, derivative, second, rotation)
 
 
-def _dot(a: ComplexArray, b: ComplexArray) -> FloatArray:
-    return np.asarray(a.real * b.real + a.imag * b.imag)
-
-
 def _square(a: ComplexArray) -> FloatArray:
-    return _dot(a, a)
+    return dot(a, a)
 
 
 def _fit(kernel: Kernel, start: RR, poses: int, together: int = 1) -> NormalFit:

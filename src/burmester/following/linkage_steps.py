@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.limited_block import FaceConditions
-from burmester.following.minimum_step import saddle_system
+from burmester.following.minimum_step import INWARD_ROUNDING, saddle_system
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, take, where
@@ -27,7 +27,6 @@ COST_ROUNDING = 1e-9  # relative; an error that rises by less has not
 FLAT, FLAT_OF_MANY = 1e-9, 1e-3
 MOVING_STEPS = 4  # with the poses
 MET = 1e-13  # lengths; places that are missed by less are met
-INWARD_ROUNDING = 1e-7  # of the terms of a derivative; what leads down less does not
 
 
 def moved_with_places(

@@ -18,7 +18,7 @@ from burmester.fourbar.circuit_parameter import RangeType
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.loop_closure import KINDS
-from burmester.fourbar.traversal import quarters_inside
+from burmester.fourbar.traversal import QUARTER_TURN, quarters_inside
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.pose_order import FULL_TURN, BoolArray
 from burmester.numerics.arrays import FloatArray
@@ -31,7 +31,6 @@ AT_STOP: Final = (
 )
 
 CRANK, RAIL, SLOT = map(KINDS.index, (RR, PR, RP))
-QUARTER_TURN: Final = np.pi / 2  # radians
 ROUNDING_STEP: Final = 1e-9  # radians; a step back round a circuit that is less is rounding
 SAMPLES: Final = 361  # number of places at which a linkage at a change point is looked at
 

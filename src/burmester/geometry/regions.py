@@ -10,6 +10,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.linear_algebra import unit_vectors
 from burmester.values import Shape, real_numbers
 
 # Corners of a polygon: every edge is compared with every other one; flattened arcs have some 100.
@@ -146,7 +147,7 @@ class Line(_Straight):
 
     def faces(self) -> Iterator[Face]:
         """Its pieces."""
-        yield Face(self.start, _unit(self.end - self.start)[:, None], np.empty((0, 2)))
+        yield Face(self.start, unit_vectors(self.end - self.start)[:, None], np.empty((0, 2)))
 
     def distance(self, points: FloatArray) -> FloatArray:
         """How far points (*, 2) lie outside it, (*,)."""
@@ -173,7 +174,7 @@ class Segment(_Straight):
 
     def faces(self) -> Iterator[Face]:
         """Its pieces."""
-        along = _unit(self.end - self.start)
+        along = unit_vectors(self.end - self.start)
         yield Face(self.start, along[:, None], np.empty((0, 2)))
         for at, inward in ((self.start, along), (self.end, -along)):
             yield Face(at, np.empty((2, 0)), inward[None])
@@ -279,7 +280,7 @@ class Polygon:
         """Its pieces: the inside, the edges, the corners."""
         yield PLANE
         v = self.vertices
-        along = _unit(np.roll(v, -1, axis=0) - v)
+        along = unit_vectors(np.roll(v, -1, axis=0) - v)
         inward = np.stack([-along[:, 1], along[:, 0]], axis=-1)
         for at, edge, inside in zip(v, along, inward, strict=True):
             yield Face(at, edge[:, None], inside[None])
@@ -288,7 +289,7 @@ class Polygon:
             if (
                 along[k] @ inward[k - 1] < STRAIGHT_CORNER_SINE
             ):  # straight, or pointing into the polygon
-                ways.append(_unit(inward[k] + inward[k - 1]))
+                ways.append(unit_vectors(inward[k] + inward[k - 1]))
             yield Face(at, np.empty((2, 0)), np.stack(ways))
 
     def distance(self, points: FloatArray) -> FloatArray:
@@ -413,12 +414,8 @@ def _shown(point: FloatArray) -> str:
     return f"({point[0]:g}, {point[1]:g})"
 
 
-def _unit(vectors: FloatArray) -> FloatArray:
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
-
-
 def _line_equation(start: FloatArray, end: FloatArray) -> FloatArray:
-    along = _unit(end - start)
+    along = unit_vectors(end - start)
     normal = np.array([-along[1], along[0]])
     return np.array([[-normal @ start, *normal]])
 

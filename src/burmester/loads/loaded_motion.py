@@ -24,6 +24,7 @@ from burmester.numerics.arrays import (
     ComplexArray,
     FloatArray,
     complex_of,
+    dot,
     pairs_of,
     wrapped_angle,
 )
@@ -276,7 +277,7 @@ class LoadedMotion:
         length = np.abs(apart)
         # Where two points are one, a spring pulls nowhere.
         way = apart / np.where(length > 0, length, 1.0)
-        rate = _dot(two.speed - one.speed, way)
+        rate = dot(two.speed - one.speed, way)
         tension = law.tension(length)
         return SpringCourse(spring, length, tension, rate, law, ((one, way), (two, -way)))
 
@@ -359,7 +360,7 @@ class LoadedMotion:
         """The efforts (n,) of all weights, forces and springs, none taken from another."""
         k = self.rates.number(self.bodies.body)
         out = np.abs(self.loads.torque * self.rates.spins[k])
-        out += np.abs(_dot(self._moved, self._weights)).sum(axis=0)
+        out += np.abs(dot(self._moved, self._weights)).sum(axis=0)
         for force, acts in zip(self.loads.forces, self._acting, strict=True):
             moved = self._point(BODY, force.at).speed
             out += acts * np.linalg.norm(force.force) * np.abs(moved)
@@ -385,13 +386,13 @@ class LoadedMotion:
         mass, inertia = self.masses.mass, self.masses.inertia
         turn, bent = self.rates.spins[:-1], self.rates.bends[1][:-1]
         total = mass @ np.abs(self._moved) ** 2 + inertia @ turn**2
-        return total, 2 * (mass @ _dot(self._moved, self._bent) + inertia @ (turn * bent))
+        return total, 2 * (mass @ dot(self._moved, self._bent) + inertia @ (turn * bent))
 
     @cached_property
     def energy(self) -> FloatArray:
         """The potential energy (n,) in J of weights and springs, up to a constant."""
         centres = self.rates.at[:-1] * self.rates.tree.size + self.centres
-        height = -_dot(centres, self._weights).sum(axis=0)
+        height = -dot(centres, self._weights).sum(axis=0)
         return sum((each.energy for each in self.springs), start=height)
 
     @cached_property
@@ -424,11 +425,6 @@ class LoadedMotion:
         forces = self.rates.pin_forces(resisted)
         named = {letter(joint): forces[:, j] for j, joint in enumerate(self.bodies.joints)}
         return dict(sorted(named.items()))
-
-
-def _dot(one: ComplexArray, other: ComplexArray) -> FloatArray:
-    """Scalar products of vectors (*,)."""
-    return one.real * other.real + one.imag * other.imag
 
 
 def letter(joint: Joint) -> str:

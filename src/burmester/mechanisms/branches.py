@@ -18,10 +18,9 @@ import numpy as np
 
 from burmester.mechanisms.circuits import Circuits
 from burmester.mechanisms.contract import Mechanism, drive_of
-from burmester.numerics.arrays import ComplexArray, FloatArray, wrapped_angle
+from burmester.numerics.arrays import TURN, ComplexArray, FloatArray, wrapped_angle
 from burmester.numerics.iteration import golden_section
 
-TURN = 2 * np.pi
 STEPS = 720  # of the table of a branch, for each piece of its circuit
 SOLVED = 60  # steps of the search for the share of an angle
 NARROWEST = 1e-6  # radians; over less a driver does not move

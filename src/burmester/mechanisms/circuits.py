@@ -18,9 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.mechanisms.contract import Mechanism
-from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.arrays import TURN, ComplexArray, FloatArray
 
-TURN = 2 * np.pi
 SHORTEST = 1e-6  # radians; on a shorter piece of the generator a mechanism does not move
 SAME = 1e-6  # radians; pieces that end as near to each other end at one place
 

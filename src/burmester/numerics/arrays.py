@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 ComplexArray: TypeAlias = NDArray[np.complex128]
 
+TURN = 2 * np.pi  # radians
 ROUNDING = 1e-11  # errors below this are rounding of the computation, and all equally good
 
 
@@ -31,6 +32,11 @@ def complex_of(pairs: FloatArray) -> ComplexArray:
 def pairs_of(numbers: ComplexArray | complex) -> FloatArray:
     """Complex numbers (*,) as points (*, 2)."""
     return np.stack([numbers.real, numbers.imag], axis=-1)
+
+
+def dot(one: ComplexArray, other: ComplexArray) -> FloatArray:
+    """Scalar products (*,) of vectors as complex numbers (*,)."""
+    return np.asarray(one.real * other.real + one.imag * other.imag)
 
 
 def median(values: FloatArray, axis: int) -> FloatArray:

@@ -16,7 +16,7 @@ from burmester.mechanisms.contract import drive_of
 from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.mechanisms.pose_order import PoseOrder, along_interval, around_circuit, smallest_arc
 from burmester.mechanisms.transmission import least_transmission_angle
-from burmester.numerics.arrays import ComplexArray, FloatArray, take, where
+from burmester.numerics.arrays import TURN, ComplexArray, FloatArray, take, where
 from burmester.sixbar.watt import (
     WATT_I,
     Sides,
@@ -27,7 +27,6 @@ from burmester.sixbar.watt import (
     turning_points,
 )
 
-TURN = 2 * np.pi
 CLOSE = 1e-9  # radians; a pose as near to a dead point is at it
 
 

@@ -20,7 +20,7 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.mechanisms.pose_order import smallest_arc
-from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.numerics.arrays import TURN, FloatArray, wrapped_angle
 from burmester.requirements.figures import Figures
 from burmester.tasks.motion_task import characteristic_length
 from burmester.values import real_numbers
@@ -35,7 +35,6 @@ Pair: TypeAlias = tuple[FoundDyad, FoundDyad]
 Side: TypeAlias = Literal["first", "second"]
 
 
-TURN: Final = 2 * np.pi
 SAME_PLACE: Final = 1e-9  # characteristic lengths; places that differ by less are one
 ANGLE_SAMPLES: Final = 721  # places between which the coupler's angle is unwrapped
 

@@ -21,7 +21,7 @@ from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.plates import Assembly
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import GROUND, LinkPlaces
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import TURN, FloatArray
 from burmester.synthesis.result import Candidate
 from burmester.verdicts.motion import Motion
 
@@ -30,7 +30,6 @@ INSET = 0.02  # of the thickness: each shape is lower by this, half at each end,
 
 
 LOOKS: Final = 721  # places along the motion at which the joints' range is found
-TURN: Final = 2 * np.pi
 
 
 @final
