@@ -195,7 +195,7 @@ def pytest_runtest_makereport(item: pytest.Item):
 
 
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
-    _measured[_function(report)] += report.weight
+    _measured[_function(report)] += getattr(report, "weight", 0.0)  # none of a worker that died
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
