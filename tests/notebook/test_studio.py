@@ -4,7 +4,6 @@ import asyncio
 import subprocess
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -318,29 +317,6 @@ def test_it_shows_itself_where_no_widget_is_shown(widget):
     assert "<svg" in bundle["text/html"]
     assert "<script" not in bundle["text/html"]
     assert bundle["text/html"] == widget.still == widget.linkage._repr_html_()
-
-
-def test_a_saved_widget_without_a_kernel_shows_its_drawing(widget, browser):
-    script = Path(burmester.__file__).parent / "web" / "assets" / "notebook.mjs"
-    page = browser.new_page()
-    page.route("http://saved/**", lambda route: route.fulfill(
-        body=script.read_bytes() if route.request.url.endswith(".mjs") else "<div></div>",
-        content_type="text/javascript" if route.request.url.endswith(".mjs") else "text/html",
-    ))  # fmt: skip
-    page.goto("http://saved/")
-    page.evaluate(
-        """async (still) => {
-          const { default: widget } = await import("/notebook.mjs");
-          const model = { get: () => still, on() {}, off() {}, send() {} };
-          widget.render({ model, el: document.querySelector("div") });
-        }""",
-        widget.still,
-    )
-    page.get_by_text("No kernel answers").wait_for()
-    drawn = page.locator(".bn-still svg").bounding_box()
-    assert drawn["width"] > 300
-    assert page.locator(".bn-still td").count() == 18
-    page.close()
 
 
 def test_without_anywidget_it_says_what_to_install():
