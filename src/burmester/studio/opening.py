@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import PurePath
 from typing import Any, Final
 
+from burmester.errors import InputError
 from burmester.io import templates
 from burmester.io.reading.file_content import read_source
 from burmester.io.reading.functions.function_file import read_function
@@ -38,11 +40,12 @@ def opening(head: dict[str, Any], data: bytes) -> dict[str, Any]:
         options_of(link.options)  # what cannot be asked is refused here
         beside, data = link._asdict(), link.data
     elif path != "-" and not is_drawing:
-        data = read_source(path)
+        with suppress(InputError):  # the reader of poses says which file it is
+            data = read_source(path)
     if not is_drawing and is_function(data, path):
         document = function_document(read_function(data, path))
         return {**beside, "document": EMPTY, "function": document["function"]}
-    task = read_task(path, data=None if is_drawing else data)
+    task = read_task(path, data=data or (b"" if path == "-" else None))
     if path.lower().endswith((".toml", ".json")) and not path.startswith("case:"):
         beside["picture"] = picture_in(path, data)
     return {**beside, "document": document_of(task)}
