@@ -112,7 +112,7 @@ def test_a_code_may_be_given_as_it_is_printed(given):
 
 @pytest.mark.parametrize(
     ("given", "near"),
-    [("E1O3", "E103"), ("W2O9", "W209"), ("103", "E103"), ("E13", "E13"), ("E119", "E116")],
+    [("E1O3", "E103"), ("W2O9", "W209"), ("103", "E103"), ("E13", "E13"), ("E119", "E117")],
 )
 def test_an_unknown_code_is_told_the_nearest(given, near):
     with pytest.raises(InputError) as caught:

@@ -107,7 +107,7 @@ def test_radians_in_other_languages(read: Read, radians: str) -> None:
 def test_the_page_of_e105_lists_all_that_is_understood() -> None:
     page = pages()["E105"].text
     for role, words in (WORDS | UNITS).items():  # those of y and z are those of x
-        listed = re.search(rf"(?m)^- .*: {re.escape(words)}$", page)
+        listed = re.search(rf"(?m)^- .*: `{re.escape(words)}`$", page)
         assert role in ("y", "z", *POINTS) or listed, role
 
 

@@ -13,6 +13,7 @@ const SOON = 250; // milliseconds of rest before linkages are looked for
 const FIRST = { expression: "log10(x)", x: "1:2", input_deg: 60, output_deg: 60, pairs: 5 };
 const PAIRS = [[0, 0], [20, 15], [40, 32], [60, 60]]; // where there is no answer whose pairs could be taken
 const DIGITS = 4; // of the degrees of pairs that are taken from an expression
+const BOUNDED = ["transmission", "link ratio"]; // what is asked of a function generator, beside its type
 const TYPES = ["crank-rocker", "rocker-crank", "double-crank", "double-rocker", "triple-rocker", "change-point"];
 const OF_EXPRESSION = ["expression", "x", "input_deg", "output_deg", "opposite", "spacing"];
 
@@ -146,10 +147,11 @@ export class FunctionPage {
     const links = textField("lengths of ground, input, coupler, output", (value) => this.edit({ links: value.trim() || undefined }), { "data-key": "links", placeholder: "1, 2.2, 0.7, 2" });
     const side = choice("its output pin lies", [["", "on the better side"], ["left", "left"], ["right", "right"]], (value) => this.edit({ side: value || undefined }), { "data-key": "side" });
     this.judged = { links, side };
+    const required = this.files.start.form.requirements.filter(({ of }) => BOUNDED.includes(of)).map(({ key, label, kind, least, below }) => number(key, label, { kind, optional: true, least, below }, kind === "angle" ? "°" : " "));
     const part = (title, ...content) => h("details", { class: "bs-section" }, h("summary", {}, title), h("div", { class: "bs-grid" }, content));
     return [
       labelled("the function is", this.kind), this.ofExpression, this.ofPairs, flag("minimax", "make the greatest error least"),
-      part("What the linkage must be", number("transmission_deg", "transmission at least", { ...free, least: 0, below: 90 }), number("link_ratio", "longest / shortest at most", { kind: "number", optional: true, above: 1 }, " "), h("details", {}, h("summary", {}, "types"), h("div", { class: "bs-ticks" }, types.map(({ element }) => element)), h("p", { class: "bs-hint" }, "None: any."))),
+      part("What the linkage must be", required, h("details", {}, h("summary", {}, "types"), h("div", { class: "bs-ticks" }, types.map(({ element }) => element)), h("p", { class: "bs-hint" }, "None: any."))),
       part("Phases and size", number("input_phase_deg", "input link at input 0", free), number("output_phase_deg", "output link at output 0", free), number("ground", "ground link", { kind: "number", optional: true, above: 0 }, " ")),
       part("Judge a linkage that exists", labelled("ground, input, coupler, output", links), labelled("its output pin lies", side), h("p", { class: "bs-hint" }, "With lengths here, that linkage is judged, and no other looked for.")),
       this.status, this.fault,
